@@ -1,13 +1,11 @@
-// hard.c - which islands of a world of the soft step are solved exactly though nobody asked: small ones that sweeps cannot hold.
+// hard.c - which islands of a world of the soft step are solved exactly where it asks for that: small ones that sweeps cannot hold.
 //
 // A soft contact gives way to its load F by s = F (1/m_A + 1/m_B) / w^2, and a sweep a substep hands a load on by one
 // contact: what bears much is pressed in, and what stands on it falls over. A contact is a seed of its island that is
 // - uneven: one body is UNEVEN times as heavy as the other, and lies on it; or gives way by more than DEEP of their size, and the
 //   lighter one bears BORNE of its weight; or
 // - pressed: at two looks, LOOK steps apart, it gave way by so much and bore BURDEN times the weight of the lighter body. A blow
-//   does not last so long. A young world is looked at after 1, 2, 4 and 8 steps, too: it may begin with a stack; or
-// - deep: its bodies overlapped by OVERLAP of their size when they met, as those do that are made inside one another. It stays
-//   one until LEFT of their size is left: sweeps would throw them.
+//   does not last so long. A young world is looked at after 1, 2, 4 and 8 steps, too: it may begin with a stack.
 // What is asked is the load that would press a soft contact in, not by how much it is pressed in: loads are the same however they
 // are borne, so an island that has become exact stays so. What had sunk then is undone without velocity (rows.c); an island that is
 // soft again sinks in by its springs. Impulses go over.
@@ -17,7 +15,7 @@
 // than MOST contacts and joints is swept, and so is one that bounces, and one of whose bodies a system acts on alone.
 //
 // Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
-// clusters, before the graph. Cost: a read of the masses and of new contacts, every LOOK steps one of the manifolds; with seeds
+// clusters, before the graph. Cost: a read of the masses, where they are uneven one of the new contacts, every LOOK steps one of the manifolds; with seeds
 // O(contacts + bodies).
 #include "core/union_find.h"
 #include "effects/effects.h"
@@ -29,16 +27,14 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST    96   // contacts and joints of an island
-#define DEEP    2e-2 // of the way from the contact to the centre of mass
-#define UNEVEN  10.0
-#define BORNE   0.25
-#define BURDEN  4.0
-#define OVERLAP 0.05              // of the same way, where a contact begins
-#define LEFT    3e-3              // of it, until which it is undone
-#define ABOVE   0.3               // cosine
-#define NEAR    ((near_real)5e-3) // [m]
-#define LOOK    8u                // steps
+#define MOST   96   // contacts and joints of an island
+#define DEEP   2e-2 // of the way from the contact to the centre of mass
+#define UNEVEN 10.0
+#define BORNE  0.25
+#define BURDEN 4.0
+#define ABOVE  0.3               // cosine
+#define NEAR   ((near_real)5e-3) // [m]
+#define LOOK   8u                // steps
 
 #define SOFTNESS 0.912 // (6 / (2 pi))^2: 1 / (w h)^2 of soft.c
 
@@ -85,12 +81,6 @@ static double arm_of(const search *s, const pl_manifold *m)
         arm = b && of_b < arm ? of_b : arm;
     }
     return arm;
-}
-
-static bool overlaps(const search *s, const pl_manifold *m, double share)
-{
-    const near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
-    return -(double)(s0 < s1 ? s0 : s1) > share * arm_of(s, m);
 }
 
 typedef struct burden {
@@ -159,16 +149,9 @@ static void look_at_new(const search *s)
     bool large = false;
     for (uint32_t i = 0; i < s->world->narrow.fresh_count; ++i) {
         pl_pair *pair = &pl_pairs(&s->world->broad.pairs)[fresh[i]];
-        if (pair->manifold >= s->contacts || (pair->flags & PL_PAIR_LARGE) != 0) {
-            continue;
-        }
-        const pl_manifold *m = &pl_manifolds(&s->world->narrow)[pair->manifold];
-        if (overlaps(s, m, OVERLAP)) {
-            pair->flags |= PL_PAIR_PRESSED;
-            s->world->solver.hard_pressed = true;
-        }
-        if (!s->uneven || !(s->weight > 0) || !are_uneven(s, pair->body_a, pair->body_b) ||
-            !is_above(s, m)) {
+        if (pair->manifold >= s->contacts || !are_uneven(s, pair->body_a, pair->body_b) ||
+            (pair->flags & PL_PAIR_LARGE) != 0 ||
+            !is_above(s, &pl_manifolds(&s->world->narrow)[pair->manifold])) {
             continue;
         }
         const bool a_heavier = inverse_mass(s, pair->body_a) < inverse_mass(s, pair->body_b);
@@ -205,9 +188,7 @@ static void look(const search *s)
         const bool loaded = burden_of(s, m, &b);
         pl_pair *pair = pair_of(s, i);
         const uint32_t was = pair->flags;
-        const bool pressed = (loaded && (was & before) != 0) ||
-                             (s->uneven && is_uneven(s, m, &b)) ||
-                             ((was & PL_PAIR_PRESSED) != 0 && overlaps(s, m, LEFT));
+        const bool pressed = (loaded && (was & before) != 0) || (s->uneven && is_uneven(s, m, &b));
         if (loaded || (was & (now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) != 0) {
             pair->flags = (was & ~(now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) | (loaded ? now : 0) |
                           (pressed ? PL_PAIR_PRESSED : 0);
@@ -357,7 +338,7 @@ static bool reserve(plumb_world *world, search *s)
     return true;
 }
 
-bool pl_hard_find(plumb_world *world)
+static bool find(plumb_world *world)
 {
     const uint32_t dynamic = world->dynamic_count;
     search s = { .world = world,
@@ -377,7 +358,9 @@ bool pl_hard_find(plumb_world *world)
     if (s.h > 0 && is_look_due(world->step_count)) { // else no load is known
         look(&s);
     }
-    look_at_new(&s);
+    if (s.uneven && s.weight > 0) {
+        look_at_new(&s);
+    }
     if (!world->solver.hard_pressed || !any_seed(&s)) {
         return true;
     }
@@ -387,5 +370,37 @@ bool pl_hard_find(plumb_world *world)
     tally(&s);
     label(&s);
     forget_large(&s);
+    return true;
+}
+
+// What was solved exactly and is swept again begins without impulses: those of the direct method share a load out among rows that
+// say the same as they like, and a sweep that starts from them throws.
+static void hand_over(plumb_world *world)
+{
+    pl_solver *solver = &world->solver;
+    const uint32_t *hard = solver->hard_contacts.data;
+    const uint32_t count = world->narrow.manifold_count;
+    for (uint32_t i = 0, at = 0; i < count && (solver->hard_before || solver->hard_count > 0);
+         ++i) {
+        pl_manifold *m = &pl_manifolds(&world->narrow)[i];
+        pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+        const bool is_hard = at < solver->hard_count && hard[at] == i;
+        if (!is_hard && (pair->flags & PL_PAIR_EXACT) != 0) {
+            for (uint32_t k = 0; k < m->count; ++k) {
+                m->point[k].normal = m->point[k].tangent = 0;
+            }
+        }
+        at += is_hard;
+        pair->flags = (pair->flags & ~PL_PAIR_EXACT) | (is_hard ? PL_PAIR_EXACT : 0);
+    }
+    solver->hard_before = solver->hard_count > 0;
+}
+
+bool pl_hard_find(plumb_world *world)
+{
+    if (!find(world)) {
+        return false;
+    }
+    hand_over(world);
     return true;
 }

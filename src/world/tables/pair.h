@@ -37,8 +37,9 @@ typedef struct pl_pair {
 #define PL_PAIR_LOADED_1    524288u
 #define PL_PAIR_PRESSED     1048576u
 #define PL_PAIR_LARGE       2097152u
+#define PL_PAIR_EXACT       4194304u // it was solved exactly in the last step
 #define PL_PAIR_LOADS                                                                              \
-    (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1 | PL_PAIR_PRESSED | PL_PAIR_LARGE)
+    (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1 | PL_PAIR_PRESSED | PL_PAIR_LARGE | PL_PAIR_EXACT)
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
 // 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.

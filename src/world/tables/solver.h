@@ -79,6 +79,7 @@ typedef struct pl_solver {
     uint32_t hard_count;       // contacts of them, in `hard_contacts`
     uint32_t hard_islands;
     bool hard_pressed;         // some contact was PL_PAIR_PRESSED at the last look
+    bool hard_before;          // some contact is PL_PAIR_EXACT
     pl_buffer hard_contacts;   // uint32_t: manifolds
     pl_buffer hard_leaders;    // uint32_t a movable row, while they are looked for
     pl_buffer hard_tallies;    // pl_hard_tally a movable row, likewise

@@ -1,0 +1,188 @@
+// test_hard_islands.c - islands that sweeps cannot hold are solved exactly where a world asks for it, and only those: what stands then, that it
+// may be switched off, that nothing else in the world shows in it, that images and rollbacks give the same bits, and that random
+// heaps of uneven and overlapping bodies never gain energy.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+
+#define HZ60 (1 / 60.0)
+
+static plumb_material heavy_material(plumb_world *w, double density)
+{
+    return plumb_material_create(
+        w, &(plumb_material_desc){ .friction = (plumb_real)0.6, .density = (plumb_real)density });
+}
+
+// [m] by which a box sinks into a lighter one that bears it, after two seconds; how many islands were exact.
+static double sunk(double ratio, bool off, uint32_t *exact)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = !off });
+    plumb_material wood = sim_material(w, 0.6, 0);
+    sim_floor(w, wood);
+    sim_crate(w, 0, 0.5, 0.5, 0.5, wood);
+    plumb_body top = sim_crate(w, 0, 1.5, 0.5, 0.5, heavy_material(w, ratio));
+    sim_run(w, 120, HZ60);
+    *exact = plumb_world_stats(w).exact_islands;
+    const double depth = 1.5 - sim_y(w, top);
+    plumb_world_destroy(w);
+    return depth;
+}
+
+static void heavy_on_light_stands(void **state)
+{
+    (void)state;
+    uint32_t exact;
+    for (double ratio = 1; ratio < 2e6; ratio *= 10) {
+        const double depth = sunk(ratio, false, &exact);
+        print_message("%8g : 1 sinks by %.3g m\n", ratio, depth);
+        assert_true(fabs(depth) <= 0.005);
+        assert_int_equal(exact, ratio > 10.5);
+    }
+    assert_true(sunk(1000, true, &exact) > 0.05); // as sweeps have it
+    assert_int_equal(exact, 0);
+}
+
+// Stacks as they are in games are left to sweeps; those that sink by hundredths of a crate are not.
+static void only_what_sinks_is_solved_exactly(void **state)
+{
+    (void)state;
+    const int heights[] = { 1, 5, 10, 15, 60 };
+    for (size_t k = 0; k < sizeof heights / sizeof heights[0]; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .exact_islands = true });
+        plumb_material wood = sim_material(w, 0.6, 0);
+        sim_floor(w, wood);
+        plumb_body top = PLUMB_NULL_INIT;
+        for (int i = 0; i < heights[k]; ++i) {
+            top = sim_crate(w, 0, 0.5 + i, 0.5, 0.5, wood);
+        }
+        sim_run(w, 300, HZ60);
+        assert_int_equal(plumb_world_stats(w).exact_islands, heights[k] > 40);
+        assert_true(fabs(sim_y(w, top) + 0.5 - heights[k]) < 0.004 * heights[k]);
+        assert_true(sim_max_speed(w) < 1e-3);
+        plumb_world_destroy(w);
+    }
+}
+
+// A heap at x of bodies of all sorts: boxes and discs, densities over three decades, some inside others.
+static int add_heap(plumb_world *w, double x, uint32_t seed, int count, plumb_body *bodies)
+{
+    for (int i = 0; i < count; ++i) {
+        plumb_material m = heavy_material(w, pow(10, sim_uniform(&seed, 0, 3)));
+        const double at = x + sim_uniform(&seed, -0.8, 0.8), y = 0.5 + 0.8 * i;
+        const double size = sim_uniform(&seed, 0.15, 0.35);
+        bodies[i] = sim_random(&seed) % 2 == 0 ? sim_ball(w, at, y, size, m)
+                                               : sim_crate(w, at, y, size, 0.3, m);
+    }
+    return count;
+}
+
+#define HEAP 14
+
+// Bits of a heap are its own: alone, before, behind and between others, and at any width and number of threads.
+static void what_else_there_is_does_not_show(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 6; ++seed) {
+        plumb_transform at[4][HEAP];
+        for (int variant = 0; variant < 4; ++variant) {
+            plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = true,
+                                                            .workers = variant == 3 ? 2 : 1,
+                                                            .simd_width = variant == 2 ? 4 : 0 });
+            sim_floor(w, sim_material(w, 0.6, 0));
+            plumb_body heap[HEAP], others[HEAP];
+            if (variant == 1 || variant == 3) {
+                add_heap(w, -40, seed + 50, HEAP, others);
+            }
+            add_heap(w, 0, seed, HEAP, heap);
+            if (variant >= 2) {
+                add_heap(w, 40, seed + 90, HEAP, others);
+            }
+            sim_run(w, 120, HZ60);
+            for (int i = 0; i < HEAP; ++i) {
+                at[variant][i] = plumb_body_transform(w, heap[i]);
+            }
+            plumb_world_destroy(w);
+        }
+        for (int variant = 1; variant < 4; ++variant) {
+            assert_memory_equal(at[0], at[variant], sizeof at[0]);
+        }
+    }
+}
+
+// Which islands are exact is part of the state: a run goes on from its image, bit for bit, wherever it was taken.
+static void images_go_on_the_same(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 4; ++seed) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = true });
+        plumb_world *other = sim_world(&(plumb_world_desc){ .exact_islands = true });
+        sim_floor(w, sim_material(w, 0.6, 0));
+        plumb_body heap[HEAP];
+        add_heap(w, 0, seed, HEAP, heap);
+        uint32_t exact = 0;
+        for (int i = 0; i < 120; ++i) {
+            const size_t bytes = plumb_world_snapshot_size(w);
+            void *image = malloc(bytes);
+            assert_non_null(image);
+            assert_int_equal(plumb_world_save(w, image, bytes), PLUMB_OK);
+            assert_int_equal(plumb_world_restore(other, image, bytes), PLUMB_OK);
+            free(image);
+            sim_step(w, HZ60);
+            sim_step(other, HZ60);
+            assert_true(plumb_world_hash(w) == plumb_world_hash(other));
+            exact += plumb_world_stats(w).exact_islands;
+        }
+        assert_true(exact > 0);
+        plumb_world_destroy(w);
+        plumb_world_destroy(other);
+    }
+}
+
+// [J] what it may have more of than when it fell: overlaps that were there are undone against gravity.
+static void no_heap_gains_energy(void **state)
+{
+    (void)state;
+    uint32_t exact = 0, missed = 0;
+    for (uint32_t seed = 1; seed <= 40; ++seed) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = true });
+        sim_floor(w, sim_material(w, 0.6, 0));
+        plumb_body heap[HEAP];
+        add_heap(w, 0, seed * 77, HEAP, heap);
+        const double start = sim_energy(w);
+        double most = 0;
+        for (int i = 0; i < 180; ++i) {
+            sim_step(w, HZ60);
+            const double share = sim_energy(w) / start - 1;
+            most = share > most ? share : most;
+            exact += plumb_world_stats(w).exact_islands;
+            missed += plumb_world_stats(w).exact_missed;
+        }
+        if (most > 0.03) {
+            print_message("heap %u: %.3g of its energy more\n", (unsigned)seed, most);
+        }
+        assert_true(most <= 0.03);
+        plumb_world_destroy(w);
+    }
+    print_message("%u islands exact, %u solutions missed\n", (unsigned)exact, (unsigned)missed);
+    assert_true(exact > 1000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(heavy_on_light_stands),
+        cmocka_unit_test(only_what_sinks_is_solved_exactly),
+        cmocka_unit_test(what_else_there_is_does_not_show),
+        cmocka_unit_test(images_go_on_the_same),
+        cmocka_unit_test(no_heap_gains_energy),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
