@@ -9,6 +9,7 @@
 // candidates; behind the graph. Cost: O(candidates), O(edges) a piece in a volume.
 #include "effects/fluid.h"
 
+#include "core/fill.h"
 #include "core/sort.h"
 #include "schema/passes.h"
 #include "world/island.h"
@@ -17,7 +18,6 @@
 #include "math/trig.h"
 
 #include <math.h>
-#include <string.h>
 
 bool pl_want_fluids(const plumb_world *world, const char **reason)
 {
@@ -96,7 +96,7 @@ bool pl_fluids_find(plumb_world *world)
                            sensing->candidate_count * sizeof(pl_keyed))) {
         return false;
     }
-    memset(e->swims.data, 0, world->dynamic_count);
+    pl_fill(e->swims.data, 0, world->dynamic_count);
     for (uint32_t i = 0, first = 0; i < sensing->candidate_count; ++i) {
         const uint32_t sensor = c[i].order, other = c[i].value, row = pieces->body[other];
         if (!is_volume(world, sensor) || (pieces->flags[other] & PL_PIECE_SENSOR) != 0) {

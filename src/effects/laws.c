@@ -9,6 +9,7 @@
 // graph. Cost: O(bodies laws + contacts); where laws move, O(bodies asleep).
 #include "effects/laws.h"
 
+#include "core/fill.h"
 #include "core/sort.h"
 #include "schema/passes.h"
 #include "world/body_settings.h"
@@ -18,7 +19,6 @@
 #include "math/trig.h"
 
 #include <math.h>
-#include <string.h>
 
 bool pl_want_laws(const plumb_world *world, const char **reason)
 {
@@ -388,7 +388,7 @@ bool pl_laws_find(plumb_world *world, real dt)
     if (!reserve(world)) {
         return false;
     }
-    memset(s->ways.data, PL_LAW_NONE, world->dynamic_count);
+    pl_fill(s->ways.data, PL_LAW_NONE, world->dynamic_count);
     s->law_count = pl_laws_place(world, s->laws.data);
     s->replaces = false;
     for (uint32_t i = 0; i < s->law_count; ++i) {

@@ -8,10 +8,9 @@
 // Reads: marks, order, masses, colours of contacts. Writes: assemblies, shares of kicks. Cost: O(joints) where a plan is made,
 // and, by the soft step, a step with contacts or direct joints.
 #include "joints/joint.h"
+#include "core/fill.h"
 #include "core/union_find.h"
 #include "world/state.h"
-
-#include <string.h>
 
 // Masses of two bodies that a joint ties, one over the other, from which on it is uneven.
 #define UNEVEN 10
@@ -60,10 +59,8 @@ void pl_assemblies_make(plumb_world *world)
     uint8_t *looped = plan->looped.data, *held = plan->states.data;
     plan->assembly_count = rows;
     pl_union_reset(leaders, rows);
-    if (rows > 0) { // nothing has been made for none
-        memset(looped, 0, rows);
-        memset(held, 0, rows);
-    }
+    pl_fill(looped, 0, rows);
+    pl_fill(held, 0, rows);
     for (uint32_t i = 0; i < count; ++i) {
         const pl_joint_mark *m = &marks[i];
         if (m->what != 0 && ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b)) {
@@ -125,7 +122,7 @@ void pl_assemblies_share(plumb_world *world)
         (!direct && world->narrow.manifold_count == 0)) {
         return;
     }
-    memset(states, 0, plan->assembly_count);
+    pl_fill(states, 0, plan->assembly_count);
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         const pl_joint_mark *m = &marks[order[i]];
         if (m->assembly != PL_NONE) {

@@ -14,10 +14,9 @@
 //
 // Reads: marks with assemblies, joints, masses. Writes: marks. Order: before joints get colours. Cost: O(joints) where a plan is made.
 #include "joints/joint.h"
+#include "core/fill.h"
 #include "plumb/math.h"
 #include "world/state.h"
-
-#include <string.h>
 
 #define MOST 1.1
 
@@ -153,7 +152,7 @@ void pl_joints_find_hubs(plumb_world *world)
     pl_joint_mark *marks = plan->marks.data;
     pl_hub *hubs = plan->hubs.data;
     const bool soft = world->desc.solver == PLUMB_SOLVER_SOFT;
-    memset(hubs, 0, world->dynamic_count * sizeof *hubs);
+    pl_fill(hubs, 0, world->dynamic_count * sizeof *hubs);
     tally_joints(world, hubs);
     tally_bodies(world, hubs);
     plan->any_direct = false;
