@@ -162,7 +162,7 @@ void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double c
 
 #if !PL_HAS(FRACTURE)
 WANT(pl_want_breaking)
-RESERVE(pl_breaking_reserve)
+RESERVE(pl_breaking_prepare)
 WORLD_DT(pl_breaking_find)
 FREE(pl_fracture_free, pl_fracture)
 GIVES(plumb_result, pl_breaks_run, PLUMB_OK, plumb_world *world, const char *function)

@@ -25,6 +25,7 @@ void pl_fracture_free(pl_memory *memory, pl_fracture *fracture)
     pl_buffer_free(memory, &fracture->parts);
     pl_buffer_free(memory, &fracture->children);
     pl_buffer_free(memory, &fracture->shapes);
+    pl_buffer_free(memory, &fracture->before);
     pl_buffer_free(memory, &fracture->breaks);
     pl_buffer_free(memory, &fracture->pieces);
     pl_buffer_free(memory, &fracture->pending);

@@ -1,13 +1,15 @@
 // breaking.c - who breaks by the contacts of a step, and what of a blow it gives back.
 //
-// A contact gave the impulse J along its normal n in this step. With k = 1/m + 1/m' + (r x n)^2/I + (r' x n)^2/I', its points approached
-// at u = k J - (what they part at now), and J took u J - k J^2 / 2 out of the relative motion. A body that breaks
-// bears j <= J of it alone: the j that takes its energy E, (u - sqrt(u^2 - 2 k E)) / k, and at least the impulse that is
-// its bound. The rest, J - j, is given back to both, so momentum stays, and so does angular momentum. Other contacts of the two and
-// friction are left as they are.
+// A contact gave the impulse J along its normal n in this step, and its points part at v now. With k = 1/m + 1/m' + (r x n)^2/I +
+// (r' x n)^2/I' they approached at u = k J - v, were there no other contact; held by others, a body takes any J without
+// a blow: they approached no faster than when the step began and than what they weigh added since. A body that breaks bears
+// j <= J of it alone: what leaves the approach u' = sqrt(u^2 - 2 k E) of what breaking takes, E, and at least the impulse
+// that is its bound. The rest, J - j = (u' + v) / k, is given back to both, so momentum stays, and so does angular momentum; and no blow gives more
+// than it brought. Other contacts of the two and friction are left as they are.
 //
-// Reads: manifolds (totals), body settings, masses. Writes: velocities, world->fracture.pending. Order: behind the contact
-// events; manifolds as they lie, the strongest one of a body. Cost: O(manifolds), and O(bodies that break) for each that does.
+// Reads: manifolds (totals), body settings, masses. Writes: velocities, world->fracture.pending. Order: velocities are noted before
+// the substeps, the rest is behind the contact events; manifolds as they lie, the strongest one of a body. Cost: O(manifolds),
+// O(bodies), and O(bodies that break) for each that does.
 #include "event/event.h"
 
 #include "plumb/math.h"
@@ -23,12 +25,22 @@ bool pl_want_breaking(const plumb_world *world, const char **reason)
     return wanted;
 }
 
-bool pl_breaking_reserve(plumb_world *world)
+bool pl_breaking_prepare(plumb_world *world)
 {
     pl_fracture *f = &world->fracture;
-    return pl_buffer_reserve(&world->memory, &f->pending,
-                             ((size_t)f->pending_count + world->settings.breakable) *
-                                 sizeof(pl_pending_break));
+    const pl_bodies *b = &world->bodies;
+    if (!pl_buffer_reserve(&world->memory, &f->pending,
+                           ((size_t)f->pending_count + world->settings.breakable) *
+                               sizeof(pl_pending_break)) ||
+        !pl_buffer_reserve(&world->memory, &f->before,
+                           (size_t)b->table.count * sizeof(pl_row_velocity))) {
+        return false;
+    }
+    pl_row_velocity *before = f->before.data;
+    for (uint32_t row = 0; row < b->table.count; ++row) {
+        before[row] = (pl_row_velocity){ b->vx[row], b->vy[row], b->w[row] };
+    }
+    return true;
 }
 
 static const pl_body_settings *bounds_of(const plumb_world *world, uint32_t row)
@@ -60,6 +72,7 @@ typedef struct hit {
     double impulse;        // [N s]
     double yield;          // [1/kg] k above
     double approach;       // [m/s] u above
+    double parts;          // [m/s] v above
 } hit;
 
 static double yield_of(const plumb_world *world, uint32_t row, double arm)
@@ -67,9 +80,22 @@ static double yield_of(const plumb_world *world, uint32_t row, double arm)
     return (double)world->bodies.inv_mass[row] + arm * arm * (double)world->bodies.inv_inertia[row];
 }
 
-static hit hit_of(const plumb_world *world, const pl_manifold *m)
+// [m/s] at which the points of a hit part at such velocities.
+static double parting(const hit *s, const pl_row_velocity *a, const pl_row_velocity *b)
+{
+    const double vx = (double)b->vx - (double)b->w * s->by - (double)a->vx + (double)a->w * s->ay;
+    const double vy = (double)b->vy + (double)b->w * s->bx - (double)a->vy - (double)a->w * s->ax;
+    return vx * s->nx + vy * s->ny;
+}
+
+static pl_row_velocity velocity_of(const plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
+    return (pl_row_velocity){ b->vx[row], b->vy[row], b->w[row] };
+}
+
+static hit hit_of(const plumb_world *world, const pl_manifold *m, double dt)
+{
     const double all = impulse_of(m);
     hit s = {
         .a = m->body_a, .b = m->body_b, .nx = (double)m->nx, .ny = (double)m->ny, .impulse = all
@@ -84,11 +110,13 @@ static hit hit_of(const plumb_world *world, const pl_manifold *m)
     }
     s.yield = yield_of(world, s.a, s.ax * s.ny - s.ay * s.nx) +
               yield_of(world, s.b, s.bx * s.ny - s.by * s.nx);
-    const double vx = (double)b->vx[s.b] - (double)b->w[s.b] * s.by - (double)b->vx[s.a] +
-                      (double)b->w[s.a] * s.ay;
-    const double vy = (double)b->vy[s.b] + (double)b->w[s.b] * s.bx - (double)b->vy[s.a] -
-                      (double)b->w[s.a] * s.ax;
-    s.approach = s.yield * all - (vx * s.nx + vy * s.ny);
+    const pl_row_velocity a = velocity_of(world, s.a), b = velocity_of(world, s.b);
+    s.parts = parting(&s, &a, &b);
+    const pl_row_velocity *before = world->fracture.before.data;
+    const double weight =
+        fabs((double)world->gravity.x * s.nx + (double)world->gravity.y * s.ny) * dt;
+    s.approach =
+        pl_smaller(s.yield * all - s.parts, weight - parting(&s, &before[s.a], &before[s.b]));
     return s;
 }
 
@@ -104,27 +132,39 @@ static void push(plumb_world *world, uint32_t row, double x, double y, double tu
     pl_poses(world)[row].vy = b->vy[row];
 }
 
-// Both get back what exceeds `borne`.
-static void give_back(plumb_world *world, const hit *s, double borne)
+static void give_back(plumb_world *world, const hit *s, double impulse)
 {
-    const double x = (s->impulse - borne) * s->nx, y = (s->impulse - borne) * s->ny;
+    const double x = impulse * s->nx, y = impulse * s->ny;
     push(world, s->a, x, y, s->ax * y - s->ay * x);
     push(world, s->b, -x, -y, -(s->bx * y - s->by * x));
 }
 
-// What the body bears of it; < 0: the blow has not the energy that breaking takes.
-static double borne_of(const pl_body_settings *t, const hit *s, double dt)
+// Whether the blow or the load is one that breaks.
+static bool breaks(const pl_body_settings *t, const hit *s, double dt)
 {
-    const double u = s->approach, k = s->yield, energy = (double)t->break_energy;
-    const bool struck = u > 0 && k > 0 && u * u >= 2 * k * energy;
-    const bool loaded = t->break_force > 0 && s->impulse > (double)t->break_force * dt;
-    if (!struck) {
-        return loaded ? s->impulse : -1;
+    const double u = s->approach, energy = (double)t->break_energy;
+    const bool struck = s->yield > 0 && (u > 0 ? u * u : 0) >= 2 * s->yield * energy;
+    return struck || (t->break_force > 0 && s->impulse > (double)t->break_force * dt);
+}
+
+// What the body does not bear of it.
+static double rest_of(const pl_body_settings *t, const hit *s, double dt)
+{
+    const double u = s->approach, left = u * u - 2 * s->yield * (double)t->break_energy;
+    if (!(u > 0 && left >= 0 && s->yield > 0)) {
+        return 0;
     }
     const double least =
         t->break_impulse > 0 ? (double)t->break_impulse : (double)t->break_force * dt;
-    const double borne = pl_larger(least, (u - sqrt(u * u - 2 * k * energy)) / k);
-    return pl_smaller(borne, s->impulse);
+    const double rest = (sqrt(left) + s->parts) / s->yield;
+    return pl_larger(pl_smaller(rest, s->impulse - least), 0);
+}
+
+// [J] of the approach that breaking took.
+static double taken_by(const hit *s, double rest)
+{
+    const double after = pl_larger(s->yield * rest - s->parts, 0);
+    return s->approach > after ? (s->approach * s->approach - after * after) / (2 * s->yield) : 0;
 }
 
 //---- who breaks ----------------------------------------------------------------------------------
@@ -190,17 +230,15 @@ static void settle(plumb_world *world, uint32_t first, double dt)
     uint32_t kept = first;
     for (uint32_t i = first; i < f->pending_count; ++i) {
         pl_pending_break b = all[i];
-        const pl_manifold *m = manifold_of(world, &b);
-        const uint32_t row = pl_body_row(world, b.body);
-        const hit s = hit_of(world, m);
+        const pl_body_settings *t = bounds_of(world, pl_body_row(world, b.body));
+        const hit s = hit_of(world, manifold_of(world, &b), dt);
         const bool shared = is_shared(all + first, kept - first, &b);
-        const double borne = shared ? s.impulse : borne_of(bounds_of(world, row), &s, dt);
-        if (borne < 0) {
+        if (!shared && !breaks(t, &s, dt)) {
             continue;
         }
-        const double energy = s.approach * borne - s.yield * borne * borne / 2;
-        b.energy = shared || !(energy > 0) ? 0 : (real)energy;
-        give_back(world, &s, borne);
+        const double rest = shared ? 0 : rest_of(t, &s, dt);
+        b.energy = shared ? 0 : (real)taken_by(&s, rest);
+        give_back(world, &s, rest);
         all[kept++] = b;
     }
     f->pending_count = kept;

@@ -40,7 +40,7 @@ void pl_sensing_run(plumb_world *world);
 void pl_sensing_free(pl_memory *memory, pl_sensing *sensing);
 
 // Bodies that break (breaking.c): room for those of a step; after motion, who breaks, and what of the blow it gives back.
-bool pl_breaking_reserve(plumb_world *world);
+bool pl_breaking_prepare(plumb_world *world);
 void pl_breaking_find(plumb_world *world, plumb_real dt);
 
 // Contact systems are about to run, have run: edits are allowed in between (contact_edit.c).

@@ -61,7 +61,7 @@
     X("sensor pairs",      CONTACTS,    IF(pl_want_sensing),         ONCE(pl_run_candidates),                                REFRESHES,      \
       "pairs", "sensors", ONE)                                                                                                               \
     X("breakable",         CONTACTS,    IF(pl_want_breaking),        ONCE(pl_run_breakable),                                 ONCE,           \
-      "body settings", "events", ONE)                                                                                                        \
+      "body settings, velocities", "events", ONE)                                                                                                        \
     X("contact systems",   EDITS,       ALWAYS,                      HOME,                                                   REFRESHES,      \
       "", "", ONE)                                                                                                                           \
     X("gravity",           GRAPH,       IF(pl_want_gravity),         ONCE(pl_run_gravity),                                   REPLACEABLE,    \

@@ -137,7 +137,7 @@ RUN(pl_run_burning, pl_engines_burn(world))
 RUN(pl_run_edges, pl_wrap_bodies(world))
 RUN(pl_run_reactions, pl_joints_finish(world, dt))
 RUN(pl_run_events, publish(world, dt))
-TRY(pl_run_breakable, pl_breaking_reserve(world))
+TRY(pl_run_breakable, pl_breaking_prepare(world))
 RUN(pl_run_breaking, pl_breaking_find(world, dt))
 RUN(pl_run_sensors, pl_sensing_run(world))
 

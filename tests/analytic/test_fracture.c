@@ -586,6 +586,48 @@ static void test_energy_of_breaking(void **state)
     assert_true(shoot(R(4.5), 0).parts > 0);
 }
 
+// A body of any mass flies at a pane that stands against a wall, and at one that two blocks press from both sides: whatever breaks, no
+// energy comes of it, and what breaking takes is gone.
+static void held_pane(bool pressed)
+{
+    plumb_world *w = sim_space();
+    const double m = pow(10, between(-2, 1)), bullet_mass = pow(10, between(-1, 1));
+    const double speed = between(2, 60), energy = pick(2) == 0 ? 0 : between(0, 0.2) * m * speed;
+    const plumb_shape_desc box = { .kind = PLUMB_BOX, .half = { R(0.1), R(0.5) } };
+    const plumb_body pane = plumb_body_create(w, &(plumb_body_desc){ .mass = R(m),
+                                                                     .break_impulse = R(0.01 * m),
+                                                                     .break_energy = R(energy) });
+    plumb_shape_create(w, pane, &box);
+    for (int side = pressed ? -1 : 1; side <= 1; side += 2) {
+        const plumb_body block = plumb_body_create(
+            w, &(plumb_body_desc){ .type = pressed ? PLUMB_DYNAMIC : PLUMB_STATIC,
+                                   .position = { R(0.2 * side), 0 },
+                                   .velocity = { R(pressed ? -0.5 * speed * side : 0), 0 },
+                                   .mass = R(20 * m) });
+        plumb_shape_create(w, block, &box);
+    }
+    const plumb_body bullet =
+        plumb_body_create(w, &(plumb_body_desc){ .position = { -1, R(between(-0.3, 0.3)) },
+                                                 .velocity = { R(speed), 0 },
+                                                 .mass = R(bullet_mass) });
+    plumb_shape_create(w, bullet, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.05) });
+    const double all = all_of(w).energy;
+    for (int i = 0; i < 60; ++i) {
+        sim_step(w, 1.0 / 60);
+        assert_true(all_of(w).energy < 1.001 * all);
+    }
+    plumb_world_destroy(w);
+}
+
+static void test_held_panes(void **state)
+{
+    (void)state;
+    seed = 23;
+    for (int i = 0; i < 300; ++i) {
+        held_pane(i % 2 == 0);
+    }
+}
+
 // A slab of ice on two piers under a load that grows: by force, whatever the step.
 static double load_at_break(int rate)
 {
@@ -629,13 +671,21 @@ static void test_load(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums_of_cuts),        cmocka_unit_test(test_sums_of_shatter),
-        cmocka_unit_test(test_energy_stays),        cmocka_unit_test(test_no_slivers),
-        cmocka_unit_test(test_what_hangs_together), cmocka_unit_test(test_inner_edges),
-        cmocka_unit_test(test_joints_follow),       cmocka_unit_test(test_the_same_seed),
-        cmocka_unit_test(test_sums_of_merges),      cmocka_unit_test(test_cut_and_merged),
-        cmocka_unit_test(test_joints_of_merged),    cmocka_unit_test(test_scale),
-        cmocka_unit_test(test_energy_of_breaking),  cmocka_unit_test(test_load),
+        cmocka_unit_test(test_sums_of_cuts),
+        cmocka_unit_test(test_sums_of_shatter),
+        cmocka_unit_test(test_energy_stays),
+        cmocka_unit_test(test_no_slivers),
+        cmocka_unit_test(test_what_hangs_together),
+        cmocka_unit_test(test_inner_edges),
+        cmocka_unit_test(test_joints_follow),
+        cmocka_unit_test(test_the_same_seed),
+        cmocka_unit_test(test_sums_of_merges),
+        cmocka_unit_test(test_cut_and_merged),
+        cmocka_unit_test(test_joints_of_merged),
+        cmocka_unit_test(test_scale),
+        cmocka_unit_test(test_energy_of_breaking),
+        cmocka_unit_test(test_held_panes),
+        cmocka_unit_test(test_load),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
