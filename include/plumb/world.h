@@ -48,12 +48,11 @@ typedef struct plumb_world_desc {
     plumb_real exact_tolerance;     ///< [-] 0..0.5, default 1e-9 (also of 0): share of the largest speed that contacts and joints
                                     ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
                                     ///< plumb_stats.exact_residual
-    bool exact_islands;             ///< Soft step: solve small islands that sweeps cannot hold (96 contacts and joints at the
-                                    ///< most, none of which bounces) as PLUMB_SOLVER_EXACT does, whatever else there is: where
-                                    ///< a body lies on one that is ten times lighter, or contacts have borne four times the
-                                    ///< weight of a body for 16 steps and give way by 2 % of it. Costs some 30 us a step for
-                                    ///< two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands. Not for
-                                    ///< crowds of uneven bodies that tumble: what misses its tolerance may be thrown
+    bool no_exact_islands;          ///< Soft step: unless this is set, small islands that sweeps cannot hold (96 contacts and joints
+                                    ///< at the most, none of which bounces) are solved as PLUMB_SOLVER_EXACT does, whatever else
+                                    ///< there is: where a body lies on one that is ten times lighter, or contacts have borne four
+                                    ///< times the weight of a body for 16 steps and give way by 2 % of it. Costs some 30 us a
+                                    ///< step for two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands
     plumb_real tolerance;           ///< [-] 0..0.5, default 0: none. Error that the world may make: it then chooses
                                     ///< solver, substeps and direct_joints itself, and those given are what it
                                     ///< begins with. See plumb/accuracy.h

@@ -282,6 +282,7 @@ ROW(pl_exact_relax)
 RESERVE(pl_exact_plan)
 RESERVE(pl_hard_find)
 WORLD(pl_exact_tell)
+WORLD(pl_hard_note)
 FREE(pl_exact_free, pl_exact_solver)
 #endif
 

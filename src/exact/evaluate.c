@@ -119,7 +119,7 @@ static void evaluate_cone(const pl_exact_newton *n, pl_exact_row *normal, pl_exa
 
 static void evaluate(const pl_exact_newton *n, pl_exact_row *r)
 {
-    if (n->convex && r->leads == 1) {
+    if (n->convex && r->cone) {
         evaluate_cone(n, &n->s->rows[r->lead], r);
     } else {
         evaluate_row(n, r);

@@ -28,6 +28,7 @@ typedef struct pl_exact_row {
     double shift, gap; // [m/s] of friction as a cone: see newton.c
     uint32_t lead;     // first of the rows that load it
     uint8_t leads;     // how many; 0: low and high hold
+    bool cone;         // friction of a point: a cone with the load, where friction is cones
     bool in_force;
     bool stays; // of a joint or a contact that turns: what it gave in the sweep that pulled
 } pl_exact_row;
@@ -79,6 +80,8 @@ static inline pl_classic_contact *pl_exact_contact(const pl_exact_system *s,
 
 // Islands that sweeps cannot hold, of a world of the soft step, into a cluster of their own (hard.c). False when out of memory.
 bool pl_hard_find(plumb_world *world);
+// Behind the substeps: which contacts were solved so.
+void pl_hard_note(plumb_world *world);
 // Whether something is solved exactly in this step.
 static inline bool pl_exact_wanted(const plumb_world *world)
 {

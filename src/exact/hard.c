@@ -1,4 +1,4 @@
-// hard.c - which islands of a world of the soft step are solved exactly where it asks for that: small ones that sweeps cannot hold.
+// hard.c - which islands of a world of the soft step are solved exactly: small ones that sweeps cannot hold.
 //
 // A soft contact gives way to its load F by s = F (1/m_A + 1/m_B) / w^2, and a sweep a substep hands a load on by one
 // contact: what bears much is pressed in, and what stands on it falls over. A contact is a seed of its island that is
@@ -374,22 +374,32 @@ static bool find(plumb_world *world)
 }
 
 // What was solved exactly and is swept again begins without impulses: those of the direct method share a load out among rows that
-// say the same as they like, and a sweep that starts from them throws.
-static void hand_over(plumb_world *world)
+// say the same as they like, and a sweep that starts from them throws. Who it was is told behind the substeps (pl_hard_note): a
+// step that runs out of memory before is taken again as it was.
+static void hand_over(const plumb_world *world)
+{
+    const pl_solver *solver = &world->solver;
+    const uint32_t *hard = solver->hard_contacts.data;
+    for (uint32_t i = 0, at = 0; solver->hard_before && i < world->narrow.manifold_count; ++i) {
+        pl_manifold *m = &pl_manifolds(&world->narrow)[i];
+        const bool is_hard = at < solver->hard_count && hard[at] == i;
+        const uint32_t flags = pl_pairs(&world->broad.pairs)[m->pair].flags;
+        for (uint32_t k = 0; k < m->count && !is_hard && (flags & PL_PAIR_EXACT) != 0; ++k) {
+            m->point[k].normal = m->point[k].tangent = 0;
+        }
+        at += is_hard;
+    }
+}
+
+void pl_hard_note(plumb_world *world)
 {
     pl_solver *solver = &world->solver;
     const uint32_t *hard = solver->hard_contacts.data;
-    const uint32_t count = world->narrow.manifold_count;
-    for (uint32_t i = 0, at = 0; i < count && (solver->hard_before || solver->hard_count > 0);
-         ++i) {
-        pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    const bool any = solver->hard_before || solver->hard_count > 0;
+    for (uint32_t i = 0, at = 0; any && i < world->narrow.manifold_count; ++i) {
+        const uint32_t index = pl_manifolds(&world->narrow)[i].pair;
+        pl_pair *pair = &pl_pairs(&world->broad.pairs)[index];
         const bool is_hard = at < solver->hard_count && hard[at] == i;
-        if (!is_hard && (pair->flags & PL_PAIR_EXACT) != 0) {
-            for (uint32_t k = 0; k < m->count; ++k) {
-                m->point[k].normal = m->point[k].tangent = 0;
-            }
-        }
         at += is_hard;
         pair->flags = (pair->flags & ~PL_PAIR_EXACT) | (is_hard ? PL_PAIR_EXACT : 0);
     }

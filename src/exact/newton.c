@@ -137,7 +137,7 @@ static void shift_cones(pl_exact_newton *n)
     double along = 0, square = 0;
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         pl_exact_row *r = &s->rows[k];
-        if (r->in_force && r->leads == 1) {
+        if (r->in_force && r->cone) {
             const double slip = fabs(pl_exact_rate(s, r, s->velocity) - r->target);
             const double gap = r->factor * slip - r->shift, turn = gap - r->gap;
             along += r->gap * turn, square += turn * turn;
@@ -148,7 +148,7 @@ static void shift_cones(pl_exact_newton *n)
     n->length = n->shifts++ == 0 ? 1 : pl_lesser(pl_greater(length, 0.5), LONGEST);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         pl_exact_row *r = &s->rows[k];
-        if (r->in_force && r->leads == 1) {
+        if (r->in_force && r->cone) {
             r->shift =
                 pl_lesser(pl_greater(r->shift + n->length * r->gap, 0), r->factor * n->fastest);
         }
@@ -184,7 +184,7 @@ static bool round_off(pl_exact_newton *n)
 static double unrest_of(const pl_exact_newton *n, const pl_exact_row *r)
 {
     const double left = fabs(r->next - r->impulse) / (n->stiffness * r->mass);
-    if (!n->convex || r->leads != 1) {
+    if (!n->convex || !r->cone) {
         return left;
     }
     const double slip = pl_exact_rate(n->s, r, n->s->velocity) - r->target;
@@ -295,8 +295,8 @@ void pl_exact_solve(pl_exact_system *s)
     // Heavy on light has to be stiffer by as much.
     const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
     const int most_stalls = pulls ? PULL_STALLS : STALLS;
-    const uint32_t most_factored =
-        s->exact->factored + (s->world->solver.hard_cluster == PL_NONE ? FACTORS : UNASKED);
+    const bool unasked = s->world->solver.hard_cluster != PL_NONE;
+    const uint32_t most_factored = s->exact->factored + (unasked ? UNASKED : FACTORS);
     double left = 0, before = INFINITY, best = INFINITY;
     for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].next = 0;
@@ -325,7 +325,7 @@ void pl_exact_solve(pl_exact_system *s)
         before = loads;
     }
     s->missed = left > tolerance;
-    if (left > FAR_OFF) {
+    if (left > FAR_OFF && !unasked) {
         give_in(&n);
     }
     if (s->missed && pl_exact_has_gained(s)) {

@@ -170,6 +170,9 @@ static void order_items(search *s)
 {
     pl_exact_item *items = s->exact->items.data, *sorted = items + s->exact->item_count;
     const uint32_t count = s->exact->item_count;
+    if (count == 0) {
+        return;
+    }
     for (uint32_t i = 0; i < count; ++i) {
         s->keyed[i] = (pl_keyed){ .key = handle_key(s, &items[i]), .value = i };
     }

@@ -73,6 +73,7 @@ static void fill_tangent(const pl_classic_contact *m, const pl_classic_point *p,
                          .factor = (double)m->friction,
                          .lead = lead,
                          .leads = 1,
+                         .cone = true,
                          .kept = kept,
                          .impulse = (double)p->lt - kept };
 }

@@ -31,6 +31,8 @@ typedef enum row_kind {
     ROW_JOINTS, // sweeps
     ROW_CONTACTS,
     ROW_RELAX_CONTACTS, // takes out of velocities what pushed overlaps apart
+    ROW_EXACT_PULL,     // takes half of the kick back, and gives all impulses anew
+    ROW_EXACT_RELAX,    // gives that half, and what impulses changed by since
     ROW_WORK            // all that it does is of one kind
 } row_kind;
 
@@ -62,6 +64,10 @@ static const row_rule rules[] = {
     { pl_soft_follow_moment, ROW_WORK, PLUMB_WORK_NORMAL },
     { pl_soft_relax, ROW_RELAX_CONTACTS, PLUMB_WORK_NORMAL },
     { pl_classic_correct, ROW_WORK, PLUMB_WORK_RECOVERY },
+    { pl_exact_warm_start_joints, ROW_WARM_JOINTS, PLUMB_WORK_JOINTS },
+    { pl_exact_warm_start, ROW_WARM_CONTACTS, PLUMB_WORK_NORMAL },
+    { pl_exact_pull, ROW_EXACT_PULL, PLUMB_WORK_NORMAL },
+    { pl_exact_relax, ROW_EXACT_RELAX, PLUMB_WORK_NORMAL },
     { pl_soft_halve, ROW_HALVE, PLUMB_WORK_FORCES },
     { pl_soft_move, ROW_DRIFT, PLUMB_WORK_GRAVITY },
     { pl_move_bodies, ROW_WORK, PLUMB_WORK_GRAVITY },
@@ -165,9 +171,11 @@ void pl_measure_before_row(pl_substep *s)
     if (kind == ROW_INTEGRATE) {
         forget_kicks(s);
     }
-    if (kind == ROW_CONTACTS || kind == ROW_RELAX_CONTACTS) {
+    const bool exact = kind == ROW_EXACT_PULL || kind == ROW_EXACT_RELAX;
+    if (kind == ROW_CONTACTS || kind == ROW_RELAX_CONTACTS || exact) {
         keep_contacts(s);
-    } else if (kind == ROW_JOINTS && s->solving->any_joints) {
+    }
+    if ((kind == ROW_JOINTS || exact) && s->solving->any_joints) {
         pl_joints_keep(s->solving->joints, s->thread);
     }
 }
@@ -306,11 +314,14 @@ static void share_out(const pl_substep *s, row_kind kind)
 {
     pl_measuring m = measuring_of(s);
     m.kicks = kind == ROW_INTEGRATE || kind == ROW_WARM_JOINTS || kind == ROW_WARM_CONTACTS;
-    // The soft step warm starts in its first substep, and from then on body by body, as it integrates.
-    const bool soft = is_soft(s), starts = s->first || !soft;
+    // The soft step warm starts in its first substep, and from then on body by body, as it integrates; the exact solver where
+    // something bounces.
+    const bool soft = is_soft(s);
+    const bool exact = s->solving->exact || s->world->desc.solver == PLUMB_SOLVER_EXACT;
+    const bool starts = soft ? s->first : !exact || s->solving->elastic;
     switch (kind) {
     case ROW_INTEGRATE:
-        if (!starts) {
+        if (soft && !s->first) {
             measure_contacts(s, m, false);
             measure_joints(s, m, false, PL_DEBT_OPEN);
         }
@@ -335,9 +346,30 @@ static void share_out(const pl_substep *s, row_kind kind)
     case ROW_RELAX_CONTACTS:
         measure_contacts(s, m, true);
         break;
+    case ROW_EXACT_PULL:
+    case ROW_EXACT_RELAX: {
+        const bool from_kept = kind == ROW_EXACT_RELAX || s->solving->elastic;
+        measure_contacts(s, m, from_kept);
+        measure_joints(s, m, from_kept, PL_DEBT_NONE);
+        break;
+    }
     default:
         break;
     }
+}
+
+// What the exact solver did: half of the forces' kick, back or forth, the impulses, booked by now, and the rest, which is
+// what turning made of them, and bodies that nothing pushes, which keep the kick whole.
+static void book_exact(pl_measured_body *b, const pl_solver_body *body, double share)
+{
+    static const plumb_work forces[] = { PLUMB_WORK_GRAVITY, PLUMB_WORK_DAMPING,
+                                         PLUMB_WORK_FORCES };
+    for (size_t i = 0; i < sizeof forces / sizeof forces[0]; ++i) {
+        const double *kick = b->kick[forces[i]];
+        b->work[forces[i]].kinetic +=
+            share * (kick[0] * b->mean_x + kick[1] * b->mean_y + kick[2] * b->mean_w);
+    }
+    b->work[PLUMB_WORK_NORMAL].kinetic += gained(b, body) - (booked(b) - b->booked);
 }
 
 static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
@@ -360,6 +392,9 @@ static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
         book_accelerations(b, &pl_solver_motions(solver)[slot], (double)s->h);
     } else if (rule.kind == ROW_RELAX_CONTACTS) {
         book_recovery(b, body, (double)s->h);
+    } else if (rule.kind == ROW_EXACT_PULL || rule.kind == ROW_EXACT_RELAX) {
+        book_exact(b, body, rule.kind == ROW_EXACT_PULL ? -0.5 : 0.5);
+        return;
     }
     // Joints may give a body more inertia than its own (pl_joint_inertia), and those that are solved together slow down
     // links that flutter: what that does is theirs.

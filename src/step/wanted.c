@@ -173,9 +173,9 @@ bool pl_want_exact(const plumb_world *world, const char **reason)
 bool pl_want_hard_islands(const plumb_world *world, const char **reason)
 {
     return pl_want_soft(world, reason) &&
-           say(PL_HAS(EXACT) && world->desc.exact_islands, reason,
-               "the world asks for islands that sweeps cannot hold to be solved exactly",
-               "the world asks for no island to be solved exactly");
+           say(PL_HAS(EXACT) && !world->desc.no_exact_islands, reason,
+               "small islands that sweeps cannot hold are solved exactly",
+               "the world wants no island to be solved exactly");
 }
 
 bool pl_want_direct(const plumb_world *world, const char **reason)

@@ -45,11 +45,13 @@ static double total(plumb_balance b)
 
 static plumb_world_desc random_settings(int threads)
 {
-    const bool classic = often(0.3);
+    const bool classic = often(0.3), exact = often(0.2);
     return (plumb_world_desc){
         .measure = true,
         .workers = threads,
-        .solver = classic ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT,
+        .solver = classic ? PLUMB_SOLVER_PGS
+                  : exact ? PLUMB_SOLVER_EXACT
+                          : PLUMB_SOLVER_SOFT,
         .substeps = (int)uniform(1, 7),
         .iterations = often(0.5) ? 0 : (int)uniform(1, 5),
         .direct_joints = often(0.3),

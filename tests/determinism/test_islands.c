@@ -87,7 +87,7 @@ enum { ALONE, LEFT_FIRST, RIGHT_FIRST, IN_TURNS, AMONG_OTHERS, ORDERS };
 static void run(plumb_solver solver, int order, outcome *left, outcome *right)
 {
     plumb_world *w = NULL;
-    const plumb_world_desc desc = { .solver = solver, .exact_islands = true };
+    const plumb_world_desc desc = { .solver = solver };
     assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
     // What one island alone asks of the solver must not change the others.
     island a = { .x = -20, .seed = 1, .surface = { .friction = R(0.5) } };

@@ -24,7 +24,7 @@ static plumb_material heavy_material(plumb_world *w, double density)
 // [m] by which a box sinks into a lighter one that bears it, after two seconds; how many islands were exact.
 static double sunk(double ratio, bool off, uint32_t *exact)
 {
-    plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = !off });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_exact_islands = off });
     plumb_material wood = sim_material(w, 0.6, 0);
     sim_floor(w, wood);
     sim_crate(w, 0, 0.5, 0.5, 0.5, wood);
@@ -56,7 +56,7 @@ static void only_what_sinks_is_solved_exactly(void **state)
     (void)state;
     const int heights[] = { 1, 5, 10, 15, 60 };
     for (size_t k = 0; k < sizeof heights / sizeof heights[0]; ++k) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .exact_islands = true });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
         plumb_material wood = sim_material(w, 0.6, 0);
         sim_floor(w, wood);
         plumb_body top = PLUMB_NULL_INIT;
@@ -93,8 +93,7 @@ static void what_else_there_is_does_not_show(void **state)
     for (uint32_t seed = 1; seed <= 6; ++seed) {
         plumb_transform at[4][HEAP];
         for (int variant = 0; variant < 4; ++variant) {
-            plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = true,
-                                                            .workers = variant == 3 ? 2 : 1,
+            plumb_world *w = sim_world(&(plumb_world_desc){ .workers = variant == 3 ? 2 : 1,
                                                             .simd_width = variant == 2 ? 4 : 0 });
             sim_floor(w, sim_material(w, 0.6, 0));
             plumb_body heap[HEAP], others[HEAP];
@@ -122,8 +121,8 @@ static void images_go_on_the_same(void **state)
 {
     (void)state;
     for (uint32_t seed = 1; seed <= 4; ++seed) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = true });
-        plumb_world *other = sim_world(&(plumb_world_desc){ .exact_islands = true });
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_world *other = sim_world(&(plumb_world_desc){ 0 });
         sim_floor(w, sim_material(w, 0.6, 0));
         plumb_body heap[HEAP];
         add_heap(w, 0, seed, HEAP, heap);
@@ -152,7 +151,7 @@ static void no_heap_gains_energy(void **state)
     (void)state;
     uint32_t exact = 0, missed = 0;
     for (uint32_t seed = 1; seed <= 40; ++seed) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ .exact_islands = true });
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
         sim_floor(w, sim_material(w, 0.6, 0));
         plumb_body heap[HEAP];
         add_heap(w, 0, seed * 77, HEAP, heap);

@@ -2,7 +2,6 @@
 -- Source: statics. Hard: sweeps over contacts gain a digit in about 2.3 R sweeps, R the ratio of masses.
 -- Aim: 1e-3 m at 100 : 1 and above.
 -- lint: allow mass-ratio: that is what it asks about
--- watchdog: allow sinking: what sinks is what it measures
 scene { title = "Heavy on light", duration = 5, description = "Heavy boxes on light ones." }
 local m = material { friction = 0.6 }
 body { name = "ground", type = "static", box { 30, 1 }, at = {0, -0.5}, material = m }
@@ -14,6 +13,6 @@ for i, ratio in ipairs { 10, 100, 1000, 10000 } do
     exact { name, body = name, x = function() return x end, y = function() return 1.5 end }
 end
 expect { "10 : 1", exact = "10 kg", tolerance = 0.0041 }
-expect { "100 : 1", exact = "100 kg", tolerance = 0.047 }
-expect { "1,000 : 1", exact = "1000 kg", tolerance = 0.61 }
-expect { "10,000 : 1", exact = "10000 kg", tolerance = 1.6 }
+expect { "100 : 1", exact = "100 kg", tolerance = 1e-3 }
+expect { "1,000 : 1", exact = "1000 kg", tolerance = 1e-3 }
+expect { "10,000 : 1", exact = "10000 kg", tolerance = 1e-3 }
