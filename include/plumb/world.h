@@ -49,7 +49,7 @@ typedef struct plumb_world_desc {
                                     ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
                                     ///< plumb_stats.exact_residual
     bool no_exact_islands;          ///< Soft step: unless this is set, small islands that sweeps cannot hold (96 contacts and joints
-                                    ///< at the most, none of which bounces) are solved as PLUMB_SOLVER_EXACT does, whatever else
+                                    ///< at the most, none of which bounces or is driven) are solved as PLUMB_SOLVER_EXACT does, whatever else
                                     ///< there is: where a body lies on one that is ten times lighter, or contacts have borne four
                                     ///< times the weight of a body for 16 steps and give way by 2 % of it. Costs some 30 us a
                                     ///< step for two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands

@@ -12,7 +12,8 @@
 //
 // An island is all that hangs together by contacts and joints, through kinematic bodies too, as in solver/cluster.c, but found anew
 // in each step that has seeds: it depends on nothing else in the world, and on the past by four flags a pair. One of more
-// than MOST contacts and joints is swept, and so is one that bounces, and one of whose bodies a system acts on alone.
+// than MOST contacts and joints is swept, and so is one that bounces, or is driven, and one of whose bodies a system acts on alone;
+// and, until the next look, one that no substep of a step came near to solving.
 //
 // Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
 // clusters, before the graph. Cost: a read of the masses, where they are uneven one of the new contacts, every LOOK steps one of the manifolds; with seeds
@@ -234,6 +235,13 @@ static void join(const search *s, const pl_ends *ends, uint32_t count)
     }
 }
 
+// Driven by a bounded force. Where contacts are rigid, things that jam stop it: the rod of samples/spinner.lua at 1.9 rad/s of 4.
+static bool is_driven(const plumb_joint_desc *d)
+{
+    return d->enable_motor || d->kind == PLUMB_MOUSE || d->kind == PLUMB_MOTOR ||
+           d->kind == PLUMB_FRICTION;
+}
+
 static void tally_joints(const search *s)
 {
     const uint32_t *awake = s->world->joints.awake.data;
@@ -242,7 +250,8 @@ static void tally_joints(const search *s)
         if (leader != PL_NONE) {
             pl_hard_tally *t = &s->tallies[leader];
             ++t->contacts;
-            t->barred |= pl_joint_bounces(&pl_joint_items(&s->world->joints)[awake[i]].desc);
+            const plumb_joint_desc *d = &pl_joint_items(&s->world->joints)[awake[i]].desc;
+            t->barred |= pl_joint_bounces(d) || is_driven(d);
         }
     }
 }
@@ -391,8 +400,30 @@ static void hand_over(const plumb_world *world)
     }
 }
 
+// Islands that no substep came near to solving: sweeps may have them until the next look.
+static void give_up(const plumb_world *world)
+{
+    const pl_exact_solver *e = &world->exact;
+    const pl_exact_island *islands = e->islands.data;
+    const pl_exact_item *items = e->items.data;
+    for (uint32_t i = 0; i < e->island_count; ++i) {
+        for (uint32_t k = islands[i].first_item; !islands[i].solved && k < islands[i].end_item;
+             ++k) {
+            if (items[k].joint == PL_NONE) {
+                const uint32_t m = pl_classic_manifold(&world->solver, items[k].contact);
+                pl_pair *pair =
+                    &pl_pairs(&world->broad.pairs)[pl_manifolds(&world->narrow)[m].pair];
+                pair->flags = (pair->flags & ~PL_PAIR_PRESSED) | PL_PAIR_LARGE;
+            }
+        }
+    }
+}
+
 void pl_hard_note(plumb_world *world)
 {
+    if (world->solver.hard_count > 0) {
+        give_up(world);
+    }
     pl_solver *solver = &world->solver;
     const uint32_t *hard = solver->hard_contacts.data;
     const bool any = solver->hard_before || solver->hard_count > 0;

@@ -27,6 +27,7 @@
 #define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
+#define OFF         1e-2 // likewise: of islands that nobody asked for, not solved, more or less (hard.c)
 #define UNASKED     8  // the same in a world of the soft step: a frame is not to be missed for it
 #define MOST_CHANGE 4  // of the speeds that rows have to undo
 #define LONGEST     20 // step of the shifts, in steps by slip alone
@@ -325,6 +326,7 @@ void pl_exact_solve(pl_exact_system *s)
         before = loads;
     }
     s->missed = left > tolerance;
+    s->island->solved |= left <= OFF;
     if (left > FAR_OFF && !unasked) {
         give_in(&n);
     }
