@@ -1,4 +1,4 @@
-// test_hard_islands.c - islands that sweeps cannot hold are solved exactly where a world asks for it, and only those: what stands then, that it
+// test_hard_islands.c - islands that sweeps cannot hold are solved exactly, and only those: what stands then, that it
 // may be switched off, that nothing else in the world shows in it, that images and rollbacks give the same bits, and that random
 // heaps of uneven and overlapping bodies never gain energy.
 #include <math.h>
