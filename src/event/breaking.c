@@ -25,20 +25,25 @@ bool pl_want_breaking(const plumb_world *world, const char **reason)
     return wanted;
 }
 
+static pl_row_velocity velocity_of(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return (pl_row_velocity){ b->vx[row], b->vy[row], b->w[row] };
+}
+
 bool pl_breaking_prepare(plumb_world *world)
 {
     pl_fracture *f = &world->fracture;
-    const pl_bodies *b = &world->bodies;
+    const uint32_t count = world->bodies.table.count;
     if (!pl_buffer_reserve(&world->memory, &f->pending,
                            ((size_t)f->pending_count + world->settings.breakable) *
                                sizeof(pl_pending_break)) ||
-        !pl_buffer_reserve(&world->memory, &f->before,
-                           (size_t)b->table.count * sizeof(pl_row_velocity))) {
+        !pl_buffer_reserve(&world->memory, &f->before, count * sizeof(pl_row_velocity))) {
         return false;
     }
     pl_row_velocity *before = f->before.data;
-    for (uint32_t row = 0; row < b->table.count; ++row) {
-        before[row] = (pl_row_velocity){ b->vx[row], b->vy[row], b->w[row] };
+    for (uint32_t row = 0; row < count; ++row) {
+        before[row] = velocity_of(world, row);
     }
     return true;
 }
@@ -86,12 +91,6 @@ static double parting(const hit *s, const pl_row_velocity *a, const pl_row_veloc
     const double vx = (double)b->vx - (double)b->w * s->by - (double)a->vx + (double)a->w * s->ay;
     const double vy = (double)b->vy + (double)b->w * s->bx - (double)a->vy - (double)a->w * s->ax;
     return vx * s->nx + vy * s->ny;
-}
-
-static pl_row_velocity velocity_of(const plumb_world *world, uint32_t row)
-{
-    const pl_bodies *b = &world->bodies;
-    return (pl_row_velocity){ b->vx[row], b->vy[row], b->w[row] };
 }
 
 static hit hit_of(const plumb_world *world, const pl_manifold *m, double dt)

@@ -421,6 +421,9 @@ static void give_up(const plumb_world *world)
 
 void pl_hard_note(plumb_world *world)
 {
+    if (world->quarantine.again) { // a step that is taken anew begins as it did
+        return;
+    }
     if (world->solver.hard_count > 0) {
         give_up(world);
     }

@@ -313,11 +313,13 @@ static void measure_contacts(const pl_substep *s, pl_measuring m, bool from_kept
 static void share_out(const pl_substep *s, row_kind kind)
 {
     pl_measuring m = measuring_of(s);
-    m.kicks = kind == ROW_INTEGRATE || kind == ROW_WARM_JOINTS || kind == ROW_WARM_CONTACTS;
     // The soft step warm starts in its first substep, and from then on body by body, as it integrates; the exact solver where
     // something bounces.
     const bool soft = is_soft(s);
     const bool exact = s->solving->exact || s->world->desc.solver == PLUMB_SOLVER_EXACT;
+    // Of the exact solver's kick, half is taken back and given again: the forces', not what impulses begin with.
+    m.kicks =
+        !exact && (kind == ROW_INTEGRATE || kind == ROW_WARM_JOINTS || kind == ROW_WARM_CONTACTS);
     const bool starts = soft ? s->first : !exact || s->solving->elastic;
     switch (kind) {
     case ROW_INTEGRATE:
@@ -362,13 +364,7 @@ static void share_out(const pl_substep *s, row_kind kind)
 // what turning made of them, and bodies that nothing pushes, which keep the kick whole.
 static void book_exact(pl_measured_body *b, const pl_solver_body *body, double share)
 {
-    static const plumb_work forces[] = { PLUMB_WORK_GRAVITY, PLUMB_WORK_DAMPING,
-                                         PLUMB_WORK_FORCES };
-    for (size_t i = 0; i < sizeof forces / sizeof forces[0]; ++i) {
-        const double *kick = b->kick[forces[i]];
-        b->work[forces[i]].kinetic +=
-            share * (kick[0] * b->mean_x + kick[1] * b->mean_y + kick[2] * b->mean_w);
-    }
+    book_share(b, share);
     b->work[PLUMB_WORK_NORMAL].kinetic += gained(b, body) - (booked(b) - b->booked);
 }
 

@@ -104,14 +104,6 @@ static void publish(plumb_world *world, plumb_real dt)
     }
 }
 
-// A step that is taken anew begins as it did.
-static void note_hard(plumb_world *world)
-{
-    if (!world->quarantine.again) {
-        pl_hard_note(world);
-    }
-}
-
 RUN(pl_run_guard, pl_quarantine_guard(world, dt, "calls"))
 TRY(pl_run_characters, pl_characters_move(world, dt))
 TRY(pl_run_waking, wake(world, dt))
@@ -133,7 +125,7 @@ TRY(pl_run_immersion, pl_fluids_immerse(world))
 TRY(pl_run_engines, pl_engines_find(world, dt))
 TRY(pl_run_law_slots, pl_laws_take_slots(world))
 TRY(pl_run_acting, pl_acting_find(world, dt))
-RUN(pl_run_soft, substeps(world, dt, "soft step"); note_hard(world))
+RUN(pl_run_soft, substeps(world, dt, "soft step"); pl_hard_note(world))
 RUN(pl_run_classic, substeps(world, dt, "classic solver"))
 TRY(pl_run_elimination, pl_exact_plan(world))
 RUN(pl_run_exact, substeps(world, dt, "exact solver"); pl_exact_tell(world))

@@ -587,7 +587,7 @@ static void test_energy_of_breaking(void **state)
 }
 
 // A body of any mass flies at a pane that stands against a wall, and at one that two blocks press from both sides: whatever breaks, no
-// energy comes of it, and what breaking takes is gone.
+// energy comes of it.
 static void held_pane(bool pressed)
 {
     plumb_world *w = sim_space();

@@ -33,10 +33,10 @@ typedef struct pl_child {
 // A body that breaks when the next step begins.
 typedef struct pl_pending_break {
     plumb_body body, other;
-    plumb_vec2 point;   // [m]
-    plumb_vec2 normal;  // unit, from the body to the other
-    plumb_real impulse; // [N s]
-    plumb_real energy;  // [J] that it took
+    plumb_vec2 point;    // [m]
+    plumb_vec2 normal;   // unit, from the body to the other
+    plumb_real impulse;  // [N s]
+    plumb_real energy;   // [J] that it took
 } pl_pending_break;
 
 typedef struct pl_row_velocity {
@@ -45,15 +45,14 @@ typedef struct pl_row_velocity {
 } pl_row_velocity;
 
 typedef struct pl_fracture {
-    pl_buffer fragments, parts, children,
-        shapes; // scratch; shapes: uint32_t, first pieces of the body's shapes
+    pl_buffer fragments, parts, children, shapes; // scratch; shapes: uint32_t, first pieces of the body's shapes
     uint32_t fragment_count, part_count, child_count, shape_count;
-    pl_buffer breaks; // plumb_body_break since the last step
-    pl_buffer pieces; // plumb_body: what they broke into
+    pl_buffer breaks;   // plumb_body_break since the last step
+    pl_buffer pieces;   // plumb_body: what they broke into
     uint32_t break_count, piece_count;
-    pl_buffer pending; // pl_pending_break, in the order of contacts
+    pl_buffer pending;  // pl_pending_break, in the order of contacts
     uint32_t pending_count;
-    pl_buffer before; // pl_row_velocity of each body when the step began; scratch
+    pl_buffer before;   // pl_row_velocity of each body when the step began; scratch
 } pl_fracture;
 
 #endif
