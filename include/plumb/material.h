@@ -93,6 +93,30 @@ typedef struct plumb_material_desc {
     /// [-] 0..10, how far shelter reaches: a distance x behind a shape that is 2 r wide across the flow it is shelter (r / (r +
     /// wake x))^2, of several the most (Jensen 1983; 0.04 to 0.1 of turbines, more in gusty wind). 0: for ever
     plumb_real wake;
+
+    /// What follows makes a fluid flow another way at each place, on top of flow_x, flow_y, about the origin of the body
+    /// that holds the volume; it moves along with that, and a jet turns with it. Each edge of what is in it feels the flow
+    /// that is there.
+    /// What lifts (no wind) also pushes what floats towards the middle of its turns, as it does itself:
+    /// (1 + added_mass) of the mass that is displaced, times the fluid's acceleration.
+
+    /// [m^2/s] circulation of a vortex, positive from +x to +y: at the distance r the fluid goes round at
+    /// swirl / (2 pi r) (1 - exp(-(r / core_radius)^2)) (Lamb, Oseen); within the core nearly as a wheel does
+    plumb_real swirl;
+    /// [m^2/s] that a source at the origin gives, negative: a drain; outwards at outflow / (2 pi r), less within the core
+    /// by the same law
+    plumb_real outflow;
+    plumb_real core_radius; ///< [m] >= 1e-3 of vortex and source; 0 means 1
+    /// [m/s] of a jet out of a slot at the origin along the body's own x axis. Up to 6 widths ahead it has a core of that speed,
+    /// from there on its axis has jet sqrt(6 jet_width / x); it widens by x / 8, its profile is sech^2, and what it
+    /// carries of momentum is the same all along (turbulent plane jet: Schlichting). Negative: along minus x
+    plumb_real jet;
+    plumb_real jet_width; ///< [m] >= 1e-3, of the slot across the jet; 0 means 1
+    /// [m/s] root mean square speed of eddies: 16 waves of a stream function between eddy_length and a sixteenth of it, with
+    /// Kolmogorov's spectrum, which pass with flow_x, flow_y and change in the time in which they turn (Kraichnan 1970; Fung and
+    /// others 1992). Free of divergence; stateless. Who is in such a volume stays awake, as in gusts
+    plumb_real eddies;
+    plumb_real eddy_length; ///< [m] >= 1e-3, of the largest; 0 means 10
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,

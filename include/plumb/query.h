@@ -111,6 +111,18 @@ PLUMB_API int plumb_world_overlap_convex(plumb_world *world, const plumb_convex 
 PLUMB_API int plumb_world_overlap_point(plumb_world *world, plumb_vec2 point,
                                         const plumb_query_filter *filter, plumb_shape *shapes, int capacity);
 
+/// What flows at a place.
+typedef struct plumb_fluid_sample {
+    plumb_shape shape;   ///< the volume, a sensor of a fluid material; null: there is none
+    plumb_vec2 velocity; ///< [m/s] of the fluid in the world, gusts, vortices and the motion of its body included
+    plumb_real density;  ///< [kg/m^2]; 0: there is none
+} plumb_fluid_sample;
+
+/// The fluid at a point [m], of several volumes (plumb/material.h) that of the densest one, as soft bodies feel it; for
+/// sparks, smoke, leaves of a game's own. Liquid and air have their own (plumb/liquid.h, plumb_air_at). {0} where there is
+/// none, and on error: E_NOT_FINITE, E_RANGE. Cost: plumb_world_overlap_point, and a volume's sides.
+PLUMB_API plumb_fluid_sample plumb_fluid_at(plumb_world *world, plumb_vec2 position);
+
 /// The nearest surface to a point.
 typedef struct plumb_nearest_hit {
     plumb_shape shape;

@@ -38,13 +38,14 @@ bool pl_fluid_acts_on(const plumb_world *world, uint32_t row)
 
 //---- who is near ---------------------------------------------------------------------------------
 
-// What sleeps in a volume that moves wakes; in gusts nobody falls asleep.
+// What sleeps in a volume that moves wakes; in gusts and eddies nobody falls asleep.
 static void heed(plumb_world *world, uint32_t sensor, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t holder = world->pieces.body[sensor];
     const bool moves = b->vx[holder] != 0 || b->vy[holder] != 0 || b->w[holder] != 0;
-    const bool gusty = world->materials.gust[world->pieces.material[sensor]] > 0;
+    const uint32_t of = world->pieces.material[sensor];
+    const bool gusty = world->materials.gust[of] > 0 || world->materials.eddies[of] > 0;
     if (moves && pl_row_is_asleep(world, row)) {
         pl_sleep_disturb(world, row);
     } else if (gusty && row < world->dynamic_count) {
@@ -71,6 +72,9 @@ void pl_fluid_volume(const plumb_world *world, uint32_t piece, pl_volume *v)
                                     { b->c[row], b->s[row] } };
     v->piece = piece;
     v->material = world->pieces.material[piece];
+    v->origin_x = (double)frame.p.x;
+    v->origin_y = (double)frame.p.y;
+    v->grain = pl_local_grain(world, v->material);
     v->plane_count = pl_half_planes_of(&shape, frame, 0, 0, v->planes);
     v->up_x = pull > 0 ? -(double)g.x / pull : (double)up.x;
     v->up_y = pull > 0 ? -(double)g.y / pull : (double)up.y;

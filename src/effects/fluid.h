@@ -7,9 +7,11 @@
 
 // A piece of a sensor of a fluid that somebody is near.
 typedef struct pl_volume {
-    uint32_t piece, material; // row of the material
-    double up_x, up_y;        // against gravity
-    double bottom;            // [m] lowest place of the shape, upwards from the centre of its body
+    uint32_t piece, material;  // row of the material
+    double up_x, up_y;         // against gravity
+    double bottom;             // [m] lowest place of the shape, upwards from the centre of its body
+    double origin_x, origin_y; // [m] of its body, from the centre of that, at the start of the step
+    double grain;              // [m] over which its local flow changes; 0: it has none
     int plane_count;
     pl_half_plane
         planes[PL_HALF_PLANES_MOST]; // about the centre of its body, at the start of the step
@@ -49,8 +51,24 @@ typedef struct pl_shadow {
 // What stands behind what, as the step begins. False when out of memory.
 bool pl_shelter_find(plumb_world *world);
 
-// The flow [m/s] of a volume's fluid against its body, at a place [m] in the world at a time [s].
+// The flow [m/s] of a volume's fluid against its body that is the same everywhere, but for gusts and the layer at its
+// bottom, at a place [m] in the world at a time [s].
 void pl_fluid_flow(const plumb_world *world, const pl_volume *volume, double x, double y,
                    double height, double time, double out[2]);
+
+//---- local_flow.c --------------------------------------------------------------------------------
+
+// How far apart places are that a volume's local flow must be asked at; 0: it has none.
+double pl_local_grain(const plumb_world *world, uint32_t material);
+// The flow that is another at each place, on top of pl_fluid_flow, at a place relative to the centre of the volume's body, `since` [s]
+// after the step began.
+void pl_local_flow(const plumb_world *world, const pl_volume *volume, double x, double y,
+                   double since, double out[2]);
+// Acceleration [m/s^2] there of what flows at `flow` in all.
+void pl_local_acceleration(const plumb_world *world, const pl_volume *volume, double x, double y,
+                           double since, const double flow[2], double out[2]);
+// Drag on an outline whose volume's body is `away` [m], at velocities u against the even flow: adds to the matrix, and to force and torque.
+void pl_local_drag(const plumb_world *world, const pl_volume *volume, const pl_contour *contour,
+                   pl_spin u, const double away[2], double since, pl_drag *drag, double force[3]);
 
 #endif

@@ -129,12 +129,25 @@ static pl_spin against(const plumb_world *world, const pl_volume *volume, uint32
                       (double)body->w - w };
 }
 
-// The drag of an outline at a velocity against the fluid.
-static void drag_outline(const plumb_world *world, uint32_t material, const pl_contour *contour,
-                         pl_spin u, pl_pull *pull)
+// What is in a volume.
+typedef struct immersed {
+    const plumb_world *world;
+    const pl_volume *volume;
+    double away[2]; // [m] from its centre to the volume's body
+    double time;    // [s] since the step began
+} immersed;
+
+// The drag of an outline at a velocity against the even flow.
+static void drag_outline(const immersed *in, const pl_contour *contour, pl_spin u, pl_pull *pull)
 {
-    const pl_materials *m = &world->materials;
+    const pl_materials *m = &in->world->materials;
+    const uint32_t material = in->volume->material;
     pl_drag d = { 0 };
+    if (in->volume->grain > 0) {
+        pl_local_drag(in->world, in->volume, contour, u, in->away, in->time, &d, pull->force);
+        add_drag(pull, &d);
+        return;
+    }
     pl_contour_drag(contour, u, (double)(m->drag[material] * m->density[material]),
                     (double)(m->skin_drag[material] * m->density[material]), &d);
     add_drag(pull, &d);
@@ -144,8 +157,8 @@ static void drag_outline(const plumb_world *world, uint32_t material, const pl_c
 }
 
 // What of an outline lies from low to high across a unit vector.
-static void drag_strip(const plumb_world *world, uint32_t material, const pl_contour *contour,
-                       const double n[2], double low, double high, pl_spin u, pl_pull *pull)
+static void drag_strip(const immersed *in, const pl_contour *contour, const double n[2], double low,
+                       double high, pl_spin u, pl_pull *pull)
 {
     pl_contour strip = *contour;
     if (high < INFINITY) {
@@ -155,15 +168,16 @@ static void drag_strip(const plumb_world *world, uint32_t material, const pl_con
         pl_contour_cut(&strip, (pl_half_plane){ -n[0], -n[1], -low });
     }
     if (strip.count > 0) {
-        drag_outline(world, material, &strip, u, pull);
+        drag_outline(in, &strip, u, pull);
     }
 }
 
 // The same strip by strip where some are sheltered; (x, y): what the outline is relative to, in the world.
-static void drag_shaded(const plumb_world *world, uint32_t material, const pl_contour *contour,
-                        pl_shadow shadow, const double flow[2], double x, double y, pl_spin u,
-                        pl_pull *pull)
+static void drag_shaded(const immersed *in, const pl_contour *contour, pl_shadow shadow,
+                        const double flow[2], double x, double y, pl_spin u, pl_pull *pull)
 {
+    const plumb_world *world = in->world;
+    const uint32_t material = in->volume->material;
     const pl_shade *shades = (const pl_shade *)world->effects.shelter->shades.data + shadow.first;
     const double fx = (double)world->materials.flow_x[material];
     const double fy = (double)world->materials.flow_y[material], speed = sqrt(fx * fx + fy * fy);
@@ -172,13 +186,13 @@ static void drag_shaded(const plumb_world *world, uint32_t material, const pl_co
     for (uint32_t i = 0; i < shadow.count; ++i) {
         const pl_shade *s = &shades[i];
         if (s->low - at > from) {
-            drag_strip(world, material, contour, n, from, s->low - at, u, pull);
+            drag_strip(in, contour, n, from, s->low - at, u, pull);
         }
         const pl_spin v = { u.vx + s->share * flow[0], u.vy + s->share * flow[1], u.w };
-        drag_strip(world, material, contour, n, s->low - at, s->high - at, v, pull);
+        drag_strip(in, contour, n, s->low - at, s->high - at, v, pull);
         from = s->high - at;
     }
-    drag_strip(world, material, contour, n, from, INFINITY, u, pull);
+    drag_strip(in, contour, n, from, INFINITY, u, pull);
 }
 
 static pl_shadow shadow_of(const plumb_world *world, const pl_keyed *immersion)
@@ -189,6 +203,29 @@ static pl_shadow shadow_of(const plumb_world *world, const pl_keyed *immersion)
     }
     const pl_shadow *shadows = e->shelter->shadows.data;
     return shadows[immersion - (const pl_keyed *)e->immersions.data];
+}
+
+// The local flow at a body's centre: it is against that, too; and pushed as the fluid is that it displaces.
+static void go_along(const immersed *in, const pl_contour *contour, double flow[2], pl_spin *u,
+                     pl_pull *pull)
+{
+    const pl_materials *m = &in->world->materials;
+    const uint32_t of = in->volume->material;
+    double local[2], a[2];
+    pl_local_flow(in->world, in->volume, -in->away[0], -in->away[1], in->time, local);
+    u->vx -= local[0];
+    u->vy -= local[1];
+    flow[0] += local[0];
+    flow[1] += local[1];
+    const pl_area part = pl_contour_area(contour);
+    if (m->weightless[of] || !(part.area > 0)) {
+        return;
+    }
+    const double mass = (double)m->density[of] * (1 + (double)m->added_mass[of]) * part.area;
+    const double x = part.x / part.area, y = part.y / part.area;
+    pl_local_acceleration(in->world, in->volume, x - in->away[0], y - in->away[1], in->time, flow,
+                          a);
+    add_force(pull, mass * a[0], mass * a[1], x, y);
 }
 
 static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immersion,
@@ -203,21 +240,24 @@ static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immer
                               (double)body->dy + half * (double)body->vy,
                               (double)body->da + half * (double)body->w };
     pl_contour contour;
-    double away[2];
-    pl_fluid_contour(world, volume, piece, moved, p->time, &contour, away);
+    immersed in = { .world = world, .volume = volume, .time = p->time };
+    pl_fluid_contour(world, volume, piece, moved, p->time, &contour, in.away);
     if (contour.count == 0) {
         return;
     }
     const uint32_t row = world->pieces.body[piece];
     double flow[2];
-    const pl_spin u = against(world, volume, row, body, away, p->time, flow);
+    pl_spin u = against(world, volume, row, body, in.away, p->time, flow);
     const pl_shadow shadow = shadow_of(world, immersion);
     if (shadow.count > 0) {
         const double x = (double)world->bodies.center_x[row] + moved[0];
         const double y = (double)world->bodies.center_y[row] + moved[1];
-        drag_shaded(world, of, &contour, shadow, flow, x, y, u, pull);
+        drag_shaded(&in, &contour, shadow, flow, x, y, u, pull);
     } else {
-        drag_outline(world, of, &contour, u, pull);
+        drag_outline(&in, &contour, u, pull);
+    }
+    if (volume->grain > 0) {
+        go_along(&in, &contour, flow, &u, pull);
     }
     if (m->magnus[of] > 0) {
         const double area = pl_contour_area(&contour).area;

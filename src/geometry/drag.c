@@ -181,17 +181,22 @@ static void drag_round(const pl_element *e, const pl_element *next, const pl_spi
     }
 }
 
+void pl_element_drag(const pl_element *e, const pl_element *next, pl_spin v, double pressure,
+                     double skin, pl_drag *drag)
+{
+    if (e->r > 0) {
+        drag_round(e, next, &v, pressure, skin, drag);
+    } else {
+        drag_edge(e, next, &v, pressure, skin, drag);
+    }
+}
+
 void pl_contour_drag(const pl_contour *o, pl_spin v, double pressure, double skin, pl_drag *drag)
 {
     for (int i = 0; i < o->count; ++i) {
         const pl_element *e = &o->at[i], *next = &o->at[i + 1 == o->count ? 0 : i + 1];
-        if (e->cut || e->inner) {
-            continue;
-        }
-        if (e->r > 0) {
-            drag_round(e, next, &v, pressure, skin, drag);
-        } else {
-            drag_edge(e, next, &v, pressure, skin, drag);
+        if (!e->cut && !e->inner) {
+            pl_element_drag(e, next, v, pressure, skin, drag);
         }
     }
 }

@@ -68,6 +68,9 @@ typedef struct pl_spin {
 // the force is -D v / 2, and its derivative -D.
 void pl_contour_drag(const pl_contour *outline, pl_spin v, double pressure, double skin,
                      pl_drag *drag);
+// Of one element, up to where the next one starts.
+void pl_element_drag(const pl_element *e, const pl_element *next, pl_spin v, double pressure,
+                     double skin, pl_drag *drag);
 
 // [m], [m^3] the width of all cuts across the unit vector (x, y), towards which they face, and its second moment: how
 // a surface there pushes back.

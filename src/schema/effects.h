@@ -31,7 +31,7 @@
       "src/continuous/search.c", "continuous", "what moves fast passes through nothing")                                       \
     X(SENSORS, "sensors", "", "src/event/sensor_events.c", "", "shapes that tell what they overlap")                           \
     X(FLUIDS, "fluids", "sensors", "src/effects/fluid.c src/effects/fluid_forces.c src/effects/flow.c "              \
-      "src/effects/shelter.c src/geometry/immersed.c",                                                                         \
+      "src/effects/local_flow.c src/effects/shelter.c src/geometry/immersed.c",                                                \
       "fluid", "volumes that lift and drag: water, wind")                                                                      \
     X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/orbits.c",            \
       "charge attraction", "forces at a distance: attractors, gravitation, zones, magnetic fields")                            \

@@ -57,7 +57,21 @@
     R(X, COLUMN, REAL, shelter, SAID(shelter), "1", FROM(0, 1), 0, NO_ZERO,                         \
       "share of a fluid's flow that what stands in it keeps from what stands right behind")         \
     R(X, COLUMN, REAL, wake, SAID(wake), "1", FROM(0, 10), 0, NO_ZERO,                              \
-      "widening of wakes a metre, by which flow recovers behind what shelters; 0: it never does")
+      "widening of wakes a metre, by which flow recovers behind what shelters; 0: it never does")    \
+    R(X, COLUMN, REAL, swirl, SAID(swirl), "m^2/s", ANY, 0, NO_ZERO,                                \
+      "circulation of a vortex about the origin of the body that holds the fluid")                  \
+    R(X, COLUMN, REAL, outflow, SAID(outflow), "m^2/s", ANY, 0, NO_ZERO,                            \
+      "what a source there gives; below 0: a drain")                                                \
+    R(X, COLUMN, REAL, core_radius, SAID(core_radius), "m", FROM(1e-3, NO_END), 1, NO_ZERO,           \
+      "of a vortex and a source: within it they are weaker")                                        \
+    R(X, COLUMN, REAL, jet, SAID(jet), "m/s", ANY, 0, NO_ZERO,                                      \
+      "speed of a jet from there along the body's x axis, which widens and slows down")             \
+    R(X, COLUMN, REAL, jet_width, SAID(jet_width), "m", FROM(1e-3, NO_END), 1, NO_ZERO,               \
+      "of the slot that a jet comes out of")                                                        \
+    R(X, COLUMN, REAL, eddies, SAID(eddies), "m/s", FROM(0, NO_END), 0, NO_ZERO,                    \
+      "root mean square speed of eddies, which pass with the flow and change")                      \
+    R(X, COLUMN, REAL, eddy_length, SAID(eddy_length), "m", FROM(1e-3, NO_END), 10, NO_ZERO,          \
+      "size of the largest eddy; the smallest has a sixteenth of it")
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \

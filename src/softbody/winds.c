@@ -92,10 +92,14 @@ static void feel(const plumb_world *world, const plumb_filter *filter, pl_soft_p
         }
         double flow[2];
         const double height = w->volume.up_x * x + w->volume.up_y * y - w->volume.bottom;
+        double local[2] = { 0, 0 };
         pl_fluid_flow(world, &w->volume, p->x, p->y, height, world->time + since, flow);
+        if (w->volume.grain > 0) {
+            pl_local_flow(world, &w->volume, x, y, since, local);
+        }
         densest = w->density;
-        p->wind_x = flow[0] + w->vx - w->w * y;
-        p->wind_y = flow[1] + w->vy + w->w * x;
+        p->wind_x = flow[0] + local[0] + w->vx - w->w * y;
+        p->wind_y = flow[1] + local[1] + w->vy + w->w * x;
     }
 }
 

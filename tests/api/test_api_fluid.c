@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/sim.h"
 
 #define HZ60 (1 / 60.0)
@@ -227,6 +228,14 @@ static void bad_numbers_are_refused(void **state)
         { .fluid = true, .gust = 11 },
         { .fluid = true, .gust_length = -1 },
         { .fluid = true, .shear_height = -1 },
+        { .fluid = true, .swirl = inf },
+        { .fluid = true, .outflow = nan },
+        { .fluid = true, .core_radius = -1 },
+        { .fluid = true, .core_radius = (plumb_real)1e-4 },
+        { .fluid = true, .jet = nan },
+        { .fluid = true, .jet_width = -1 },
+        { .fluid = true, .eddies = -1 },
+        { .fluid = true, .eddy_length = nan },
         { .drag = 1, .no_drag = true },
         { .skin_drag = 1, .no_skin_drag = true },
         { .added_mass = 1, .no_added_mass = true },
@@ -238,6 +247,47 @@ static void bad_numbers_are_refused(void **state)
     plumb_world_destroy(w);
 }
 
+// In none, in one, in two: the densest; as it moves with its body, at any edge of a world that wraps.
+static void fluids_tell_what_flows(void **state)
+{
+    (void)state;
+    sea s = calm_sea();
+    plumb_fluid_sample f = plumb_fluid_at(s.w, sim_vec(0, 5));
+    assert_true(plumb_is_null(f.shape) && f.density == 0 && f.velocity.x == 0);
+    change_flow(&s);
+    plumb_material air = plumb_material_create(
+        s.w, &(plumb_material_desc){ .density = 1, .fluid = true, .flow_y = 7 });
+    plumb_body cart = sim_body(s.w, PLUMB_KINEMATIC, 0, 0, 0);
+    plumb_shape gust = pool(s.w, cart, air);
+    plumb_body_set_velocity(s.w, cart, sim_vec(2, 0));
+    plumb_body_set_angular_velocity(s.w, cart, 1);
+    f = plumb_fluid_at(s.w, sim_vec(1, -1));
+    assert_true(plumb_same(f.shape, s.surface) && f.density == 1000 && f.velocity.x == 1);
+    assert_int_equal(plumb_shape_destroy(s.w, s.surface), PLUMB_OK);
+    f = plumb_fluid_at(s.w, sim_vec(1, -1));
+    assert_true(plumb_same(f.shape, gust) && f.density == 1);
+    assert_near((double)f.velocity.x, 2 + 1, 1e-6); // -w y
+    assert_near((double)f.velocity.y, 7 + 1, 1e-6);
+    f = plumb_fluid_at(s.w, sim_vec(NAN, 0));
+    assert_true(plumb_is_null(f.shape));
+    assert_int_equal(plumb_world_error(s.w).code, PLUMB_E_NOT_FINITE);
+    f = plumb_fluid_at(NULL, sim_vec(0, 0));
+    assert_true(plumb_is_null(f.shape));
+    plumb_world_destroy(s.w);
+
+    plumb_world *w = sim_world(&(plumb_world_desc){ .wrap_x = 20, .zero_gravity = true });
+    plumb_material swirl = plumb_material_create(
+        w, &(plumb_material_desc){ .fluid = true, .swirl = 4, .core_radius = (plumb_real)0.1 });
+    plumb_body holder = sim_body(w, PLUMB_STATIC, 9.5, 0, 0);
+    plumb_shape_create(
+        w, holder,
+        &(plumb_shape_desc){
+            .kind = PLUMB_BOX, .half = sim_vec(3, 3), .sensor = true, .material = swirl });
+    f = plumb_fluid_at(w, sim_vec(-9.5, 0));
+    assert_near((double)f.velocity.y, 4 / (2 * SIM_PI), 1e-5); // 1 m beyond the edge
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +296,7 @@ int main(void)
         cmocka_unit_test(others_sleep_on),
         cmocka_unit_test(any_direction_is_up),
         cmocka_unit_test(bad_numbers_are_refused),
+        cmocka_unit_test(fluids_tell_what_flows),
     };
     return cmocka_run_group_tests_name("fluids of the API", tests, NULL, NULL);
 }

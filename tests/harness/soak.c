@@ -70,13 +70,21 @@ static void make_materials(soak *s)
         [STONE] = { .friction = R(0.6) },
         [RUBBER] = { .friction = R(0.9), .restitution = R(0.6) },
         [BELT] = { .friction = R(0.8), .surface_speed = R(1.5) },
-        [WATER] = { .density = 2, .fluid = true, .flow_x = R(0.3) },
+        [WATER] = { .density = 2,
+                    .fluid = true,
+                    .flow_x = R(0.3),
+                    .swirl = R(0.5),
+                    .outflow = R(-0.2),
+                    .core_radius = R(0.5) },
         [AIR] = { .density = R(0.05),
                   .fluid = true,
                   .weightless = true,
                   .flow_x = 6,
                   .gust = R(0.3),
-                  .gust_length = 8 },
+                  .gust_length = 8,
+                  .jet = 3,
+                  .eddies = R(0.5),
+                  .eddy_length = 4 },
     };
     for (int i = 0; i < MATERIALS; ++i) {
         s->material[i] = plumb_material_create(s->world, &all[i]);

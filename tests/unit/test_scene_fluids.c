@@ -66,6 +66,9 @@ static void mistakes_are_told(void **state)
         { "water{ box{1, 1}, drga = 1 }", "drga" },
         { "wind{ box{1, 1}, gust = -1 }", "gust" },
         { "wind{ flow = {1, 0} }", "shape" },
+        { "wind{ box{1, 1}, eddies = -1 }", "eddies" },
+        { "wind{ box{1, 1}, core_radius = 0 }", "core_radius" },
+        { "fluid_at(1)", "number expected" },
         { "water(3)", "water" },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {

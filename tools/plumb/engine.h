@@ -327,7 +327,7 @@ typedef struct engine_api {
     int (*draw)(engine_stage *stage, struct render_frame *frame, unsigned show);
     /// Adds arrows of gravity and laws on a grid over what the camera shows. CLI_FAILED: out of memory.
     int (*draw_field)(engine_stage *stage, struct render_frame *frame, const engine_box *view);
-    /// The same of the flow of air.
+    /// The same of the flow of air and fluids.
     int (*draw_flow)(engine_stage *stage, struct render_frame *frame, const engine_box *view);
 
     /// Opens a recording, which must stay where it is; NULL: see `error`. `edits`: they are told.

@@ -205,7 +205,7 @@ static void write_caption(const engine_scenery *of, char *text, size_t size)
              scores[0] != '\0' ? "   " : "", scores);
 }
 
-/// Arrows of the field, the flow of the air, where they are wanted.
+/// Arrows of the field, what flows, where they are wanted.
 static int draw_field(film *f, const render_camera *camera)
 {
     const engine_scenery *of = &f->source->seen;

@@ -1,4 +1,4 @@
-// fluids.c - water{} and wind{}: a material that is a fluid and a body of sensors of it, in one table.
+// fluids.c - water{} and wind{}: a material that is a fluid and a body of sensors of it, in one table; fluid_at(): what flows.
 //
 // Keys of materials make the material, `flow` its flow_x and flow_y, all others the body: JSON has the two as such.
 // Cost: that of material{} and body{}.
@@ -100,8 +100,24 @@ static int lua_wind(lua_State *L)
     return sc_construct(L, "wind", build_wind, 1);
 }
 
+// fluid_at(x, y): velocity and density of the fluid there.
+static int lua_fluid_at(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const plumb_vec2 at = { (plumb_real)luaL_checknumber(L, 1),
+                            (plumb_real)luaL_checknumber(L, 2) };
+    sc_need_world(s);
+    sc_query_work(s);
+    const plumb_fluid_sample f = plumb_fluid_at(s->world, at);
+    lua_pushnumber(L, (double)f.velocity.x);
+    lua_pushnumber(L, (double)f.velocity.y);
+    lua_pushnumber(L, (double)f.density);
+    return 3;
+}
+
 void sc_open_fluids(lua_State *L)
 {
+    lua_register(L, "fluid_at", lua_fluid_at);
     lua_register(L, "water", lua_water);
     lua_register(L, "wind", lua_wind);
 }
