@@ -119,7 +119,7 @@ typedef struct plumb_contact_edit {
     bool enabled;             ///< * false: in this step the shapes pass through each other, untouched
     /// * [-] 0..10; of surfaces with a kinetic friction that of the state they are in, and what is set instead is both
     plumb_real friction;
-    plumb_real restitution;        ///< * [-] 0..1
+    plumb_real restitution;        ///< * [-] 0..10
     plumb_real rolling_resistance; ///< * [m] >= 0
     plumb_real surface_speed;      ///< * [m/s] of both surfaces together: see plumb_material_desc
     plumb_real adhesion;           ///< * [N] >= 0 that the contact may pull once it touches

@@ -32,8 +32,10 @@ typedef struct plumb_material_desc {
     plumb_real density; ///< [kg/m^2] > 0; 0 means 1
     /// [-] Coulomb coefficient, 0..10; 0 means 0.6 (see frictionless). A pair uses sqrt(a b)
     plumb_real friction;
-    bool frictionless;      ///< no friction at all; `friction` must then be 0
-    plumb_real restitution; ///< [-] 0..1. A pair uses max(a, b); 1 conserves energy
+    bool frictionless; ///< no friction at all; `friction` must then be 0
+    /// [-] 0..10. A pair uses max(a, b). 1 conserves energy; more gives it, as bumpers do, up to the world's
+    /// restitution_cap
+    plumb_real restitution;
     /// [m] >= 0, lever arm of rolling resistance: the torque against rolling is at most this times the
     /// normal force. The coefficient of text books, c = f / radius, means radius times c here. A pair
     /// uses the larger.
@@ -139,7 +141,7 @@ PLUMB_API plumb_result plumb_material_set(plumb_world *world, plumb_material mat
 /// What two materials have between them, instead of what mixing gives.
 typedef struct plumb_material_pair {
     plumb_real friction;           ///< [-] 0..10
-    plumb_real restitution;        ///< [-] 0..1
+    plumb_real restitution;        ///< [-] 0..10
     plumb_real rolling_resistance; ///< [m] >= 0
     plumb_real adhesion;           ///< [N] >= 0
     plumb_real kinetic_friction;   ///< [-] 0..10, once they slide; 0, or above `friction`: the same as that

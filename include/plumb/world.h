@@ -63,6 +63,8 @@ typedef struct plumb_world_desc {
     plumb_real push_speed;          ///< [m/s] >= 0, fastest recovery from overlap, default 6
     plumb_real restitution_speed;   ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
                                     ///< only a bounce that would end within the substep is swallowed
+    plumb_real restitution_cap;     ///< [m/s] > 0, default 20: where restitution is above 1, an impact gives nothing
+                                    ///< more to what leaves this fast, and what came faster leaves as it came
     plumb_real hit_speed;           ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none
     bool contact_impulses;          ///< add up the impulses of each contact over the step (plumb_contact_point);
                                     ///< done anyway where hit_speed is set

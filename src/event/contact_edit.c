@@ -71,7 +71,8 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
 {
     PL_TRY(check_index(world, __func__, i, edit));
     PL_TRY(pl_check_range(world, __func__, "friction", edit->friction, 0, FRICTION_MOST));
-    PL_TRY(pl_check_range(world, __func__, "restitution", edit->restitution, 0, 1));
+    PL_TRY(
+        pl_check_range(world, __func__, "restitution", edit->restitution, 0, PL_RESTITUTION_MOST));
     PL_TRY(pl_check_range(world, __func__, "rolling_resistance", edit->rolling_resistance, 0,
                           PLUMB_REAL_MAX));
     PL_TRY(pl_check_finite(world, __func__, "surface_speed", edit->surface_speed));

@@ -9,14 +9,17 @@
 // A library without friction has none by default.
 #define PL_DEFAULT_FRICTION (PL_HAS(FRICTION) ? 0.6 : 0)
 
+// Above 1 it gives energy: bumpers.
+#define PL_RESTITUTION_MOST 10
+
 // clang-format off
 #define PL_MATERIAL_ROWS(R, X)                                                                      \
     R(X, COLUMN, REAL, density, SAID(density), "kg/m^2", ABOVE(0, NO_END), 1, NO_ZERO,              \
       "mass of an area of what is made of it")                                                      \
     R(X, COLUMN, REAL, friction, SAID(friction), "1", FROM(0, 10), PL_DEFAULT_FRICTION, ZERO(frictionless), \
       "Coulomb coefficient; a pair uses the root of the product")                                   \
-    R(X, COLUMN, REAL, restitution, SAID(restitution), "1", FROM(0, 1), 0, NO_ZERO,                 \
-      "share of the speed that an impact gives back; a pair uses the larger")                       \
+    R(X, COLUMN, REAL, restitution, SAID(restitution), "1", FROM(0, PL_RESTITUTION_MOST), 0, NO_ZERO, \
+      "share of the speed that an impact gives back, above 1 up to restitution_cap; a pair uses the larger") \
     R(X, COLUMN, REAL, rolling_resistance, SAID(rolling_resistance), "m", FROM(0, NO_END), 0, NO_ZERO, \
       "lever arm of the torque against rolling, by the normal force; a pair uses the larger")       \
     R(X, COLUMN, REAL, surface_speed, SAID(surface_speed), "m/s", ANY, 0, NO_ZERO,                  \
@@ -75,7 +78,7 @@
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \
-    R(X, OWN, REAL, restitution, SAID(restitution), "1", FROM(0, 1), 0, NO_ZERO,                    \
+    R(X, OWN, REAL, restitution, SAID(restitution), "1", FROM(0, PL_RESTITUTION_MOST), 0, NO_ZERO,  \
       "share of the speed that an impact gives back")                                               \
     R(X, OWN, REAL, rolling_resistance, SAID(rolling_resistance), "m", FROM(0, NO_END), 0, NO_ZERO, \
       "lever arm of the torque against rolling, by the normal force")                               \

@@ -56,7 +56,9 @@
     R(X, HERE, BOOL, watchdog, SAID(watchdog), "1", CHOICES(1), 0, NO_ZERO,                         \
       "the world tells alarms: energy jumps, tunnelling, torn joints and the like, with what was called last") \
     R(X, HERE, INT, workers, SAID(workers), "1", FROM(0, PLUMB_WORKERS_MAX), 1, NO_ZERO,            \
-      "threads that share the work of a step; any number gives the same bits")
+      "threads that share the work of a step; any number gives the same bits")                      \
+    R(X, STATE, REAL, restitution_cap, SAID(restitution_cap), "m/s", ABOVE(0, NO_END), 20, NO_ZERO, \
+      "what restitution above 1 gives ends at this speed")
 // clang-format on
 
 #endif

@@ -14,6 +14,9 @@
 // what gravity makes of the substep. The two points of one manifold are resolved together, so that a
 // flat landing does not turn.
 //
+// Restitution above 1 gives energy, as bumpers do: what would leave faster than restitution_cap leaves at that speed, or
+// at the one that it came with.
+//
 // Which contacts, and in what order: impact.c. The same in lanes, for those of low restitution: restitution.simd.c.
 // Reads, writes: the two solver bodies, the manifold's totals of impulses. Cost: O(1) a contact.
 #include "solver/bounce.h"
@@ -36,6 +39,13 @@ static double length(double x, double y)
 static double struck_at(const pl_solver *s, uint32_t slot)
 {
     return (double)((const near_real *)s->struck.data)[slot];
+}
+
+// [m/s] at which parts what met at a speed.
+static double returned(const plumb_world *world, const pl_impact *m, double speed)
+{
+    const double back = (double)m->restitution * speed, cap = (double)world->desc.restitution_cap;
+    return m->restitution > 1 && back > cap ? (speed > cap ? speed : cap) : back;
 }
 
 // Of both bodies of a manifold: what is common to its points.
@@ -127,7 +137,7 @@ static pl_approach foresee(const plumb_world *world, const pl_impact *m, const p
         return out;
     }
     double rest = h - out.time;
-    out.due = (double)m->restitution * out.speed + acceleration * rest / 2 > 0;
+    out.due = returned(world, m, out.speed) + acceleration * rest / 2 > 0;
     return out;
 }
 
@@ -248,13 +258,13 @@ static void note_strike(plumb_world *world, const pl_impact *m, uint32_t j, cons
 
 bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach at[2])
 {
-    const double gain = 1 + (double)m->restitution;
     double impulse[2] = { 0, 0 };
     if (at[0].due && at[1].due) {
         double k00 = coupling(world, m, 0, 0), k11 = coupling(world, m, 1, 1),
                k01 = coupling(world, m, 0, 1);
         double det = k00 * k11 - k01 * k01;
-        double r0 = gain * at[0].speed, r1 = gain * at[1].speed;
+        double r0 = at[0].speed + returned(world, m, at[0].speed);
+        double r1 = at[1].speed + returned(world, m, at[1].speed);
         // Nearly dependent rows (points close together) are resolved one at a time.
         if (det > 1e-4 * k00 * k11) {
             impulse[0] = (k11 * r0 - k01 * r1) / det;
@@ -269,7 +279,7 @@ bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach
     } else if (at[0].due || at[1].due) {
         uint32_t j = at[0].due ? 0 : 1;
         double k = coupling(world, m, j, j);
-        impulse[j] = k > 0 ? gain * at[j].speed / k : 0;
+        impulse[j] = k > 0 ? (at[j].speed + returned(world, m, at[j].speed)) / k : 0;
     }
     bool struck = false;
     for (uint32_t j = 0; j < m->count; ++j) {
@@ -302,8 +312,8 @@ void pl_bounce_resolve_together(plumb_world *world, pl_bounce *all, uint32_t cou
     for (uint32_t i = 0; i < count; ++i) {
         for (uint32_t j = 0; j < all[i].impact->count; ++j) {
             const pl_approach *at = &all[i].at[j];
-            all[i].wanted[j] = speed_at(world, all[i].impact, j) +
-                               (1 + (double)all[i].impact->restitution) * at->speed;
+            all[i].wanted[j] = speed_at(world, all[i].impact, j) + at->speed +
+                               returned(world, all[i].impact, at->speed);
             all[i].impulse[j] = 0;
         }
     }

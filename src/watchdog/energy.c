@@ -2,7 +2,7 @@
 //
 // Of each body: kinetic energy and height against the gravity that acts, before motion and behind it. Of each island,
 // bodies that contacts and joints tie together: the sum, and what springs stored. Known is the work of forces: force
-// times way, or what the world has measured of it. What motors, moving bodies and surfaces give is bounded from above:
+// times way, or what the world has measured of it. What motors, moving bodies, surfaces and bumpers give is bounded from above:
 // they bring an island to their own speed, and lift it by that in a step. Overlaps are lifted out of one another by
 // push_speed.
 //
@@ -192,7 +192,8 @@ static void drive_by_contacts(const plumb_world *world)
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
         const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
         const double speed = runs(world, pair->a) + runs(world, pair->b) +
-                             carried(world, m->body_a) + carried(world, m->body_b);
+                             carried(world, m->body_a) + carried(world, m->body_b) +
+                             (m->restitution > 1 ? (double)world->desc.restitution_cap : 0);
         const uint32_t row = is_dynamic(world, m->body_a) ? m->body_a : m->body_b;
         const double deep =
             -pl_less((double)m->point[0].separation, (double)m->point[1].separation);

@@ -415,6 +415,87 @@ static void impacts_are_counted_where_they_happen(void **state)
     }
 }
 
+// Between two plates a ball of e = 1.25 has 1.25^n of its speed after n bounces, until that is the cap; what comes faster
+// leaves as it came. A box that lands flat does not turn; two bodies keep their momentum.
+static void bumpers_give_energy_up_to_the_cap(void **state)
+{
+    (void)state;
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    for (int k = 0; k < 3 * 4; ++k) {
+        const double speed = k % 2 == 0 ? 1 : 6;
+        const bool box = k / 2 % 2 == 1;
+        plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[k / 4],
+                                                        .zero_gravity = true,
+                                                        .restitution_cap = 4,
+                                                        .no_sleep = true });
+        plumb_material bumper = sim_material(w, 0, 1.25);
+        for (int side = -1; side <= 1; side += 2) {
+            plumb_body plate = sim_body(w, PLUMB_STATIC, 2 * side, 0, 0);
+            sim_add_box(w, plate, 0.5, 3, bumper);
+        }
+        plumb_material plain = sim_material(w, 0, 0);
+        plumb_body b = box ? sim_crate(w, 0, 0, 0.4, 0.4, plain) : sim_ball(w, 0, 0, 0.4, plain);
+        sim_launch(w, b, speed, 0, 0);
+        double expected = speed, before = speed;
+        int bounces = 0;
+        for (int i = 0; i < 600; ++i) {
+            sim_step(w, HZ60);
+            const double v = sim_vx(w, b);
+            if (v * before < 0) {
+                ++bounces;
+                expected = expected > 4 ? expected : fmin(1.25 * expected, 4);
+            }
+            assert_true(fabs(fabs(v) - expected) < SIM_TOLERANCE(1e-4, 1e-9));
+            before = v;
+        }
+        assert_true(bounces > 10 && fabs(sim_w(w, b)) < 1e-5);
+        plumb_world_destroy(w);
+    }
+    plumb_world *w = sim_space();
+    plumb_material bumper = sim_material(w, 0, 1.5);
+    plumb_body a = sim_ball(w, -1, 0, 0.5, bumper), b = sim_ball(w, 1, 0, 0.25, bumper);
+    sim_launch(w, a, 2, 0, 0);
+    sim_run(w, 60, HZ60);
+    // Masses 4 : 1; what was 2 between them is 3.
+    assert_true(fabs(sim_vx(w, b) - sim_vx(w, a) - 3) < SIM_TOLERANCE(1e-5, 1e-12));
+    assert_true(fabs(4 * sim_vx(w, a) + sim_vx(w, b) - 8) < SIM_TOLERANCE(1e-5, 1e-12));
+    plumb_world_destroy(w);
+}
+
+// A ball that lies still between bumpers is given nothing; one that is thrown among many never leaves faster than the cap lets
+// it, whatever it strikes, and no chain of impacts goes on without end.
+static void bumpers_end_at_the_cap(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ .restitution_cap = 5 });
+    plumb_material bumper = sim_material(w, 0, 3);
+    sim_floor(w, bumper);
+    for (int side = -1; side <= 1; side += 2) {
+        plumb_body wall = sim_body(w, PLUMB_STATIC, 3 * side, 0, 0);
+        sim_add_box(w, wall, 0.5, 100, bumper);
+    }
+    plumb_body balls[9];
+    for (int i = 0; i < 9; ++i) {
+        balls[i] = sim_ball(w, -1.2 + 1.2 * (i % 3), 1 + 1.1 * (i / 3), 0.3, bumper);
+    }
+    double fastest = 0, slowest = HUGE_VAL;
+    for (int i = 0; i < 3000; ++i) {
+        sim_step(w, HZ60);
+        double sum = 0;
+        for (int k = 0; k < 9; ++k) {
+            const double vx = sim_vx(w, balls[k]), vy = sim_vy(w, balls[k]);
+            sum += vx * vx + vy * vy;
+        }
+        fastest = fmax(fastest, sqrt(sum / 9));
+        slowest = i > 300 ? fmin(slowest, sqrt(sum / 9)) : slowest;
+    }
+    print_message("nine balls among bumpers: root mean square %.2f to %.2f m/s\n", slowest,
+                  fastest);
+    // Each direction has the cap at most, and two that meet have it between them; gravity gives what it takes.
+    assert_true(fastest < 12 && slowest > 0.5);
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -428,6 +509,8 @@ int main(void)
         cmocka_unit_test(a_cut_chain_is_told),
         cmocka_unit_test(rod_turns_when_its_end_strikes),
         cmocka_unit_test(impacts_are_counted_where_they_happen),
+        cmocka_unit_test(bumpers_give_energy_up_to_the_cap),
+        cmocka_unit_test(bumpers_end_at_the_cap),
     };
     return cmocka_run_group_tests_name("bounce", tests, NULL, NULL);
 }

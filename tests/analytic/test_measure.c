@@ -352,12 +352,12 @@ static void friction_takes_what_slides(void **state)
     }
 }
 
-// A bounce of e keeps e^2; a blow without restitution is the normal's.
+// A bounce of e keeps e^2, and gives what is more; a blow without restitution is the normal's.
 static void blows_take_one_less_e_squared(void **state)
 {
     (void)state;
-    const double es[] = { 0, 0.5, 1 };
-    for (int i = 0; i < 3; ++i) {
+    const double es[] = { 0, 0.5, 1, 1.5 };
+    for (int i = 0; i < 4; ++i) {
         plumb_world *w = measured((plumb_world_desc){ .zero_gravity = true });
         plumb_material m = sim_material(w, 0, es[i]);
         plumb_body wall = sim_body(w, PLUMB_STATIC, 2, 0, 0);

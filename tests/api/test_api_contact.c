@@ -122,8 +122,8 @@ static void refuse_edits(const plumb_system_call *call)
     c.friction = 11;
     REFUSED(E_RANGE, "plumb_contact_edit_set: friction is 11; it must be 0 to 10",
             plumb_contact_edit_set(W, 0, &c));
-    c = (plumb_contact_edit){ .restitution = 2 };
-    REFUSED(E_RANGE, "plumb_contact_edit_set: restitution is 2; it must be 0 to 1",
+    c = (plumb_contact_edit){ .restitution = 11 };
+    REFUSED(E_RANGE, "plumb_contact_edit_set: restitution is 11; it must be 0 to 10",
             plumb_contact_edit_set(W, 0, &c));
     c = (plumb_contact_edit){ .rolling_resistance = -1 };
     REFUSED(E_RANGE, "plumb_contact_edit_set: rolling_resistance is -1; it must be at least 0",

@@ -306,8 +306,8 @@ static void materials_refuse(void **state)
     REFUSED(E_RANGE,
             "plumb_material_create: friction is 1; it must be 0 together with frictionless",
             STUFF(.friction = 1, .frictionless = true));
-    REFUSED(E_RANGE, "plumb_material_create: restitution is 1.5; it must be 0 to 1",
-            STUFF(.restitution = R(1.5)));
+    REFUSED(E_RANGE, "plumb_material_create: restitution is 11; it must be 0 to 10",
+            STUFF(.restitution = 11));
     REFUSED(E_NOT_FINITE, "plumb_material_create: friction is nan; it must be finite",
             STUFF(.friction = NAN_));
     REFUSED(E_HANDLE, "plumb_material_destroy: material is null; it must be a live material",
@@ -323,7 +323,7 @@ static void materials_refuse(void **state)
     REFUSED(E_HANDLE, "plumb_material_set: material is a shape; it must be a live material or null",
             plumb_material_set(W, (plumb_material){ f->box.entity }, &desc));
     desc.restitution = -1;
-    REFUSED(E_RANGE, "plumb_material_set: restitution is -1; it must be 0 to 1",
+    REFUSED(E_RANGE, "plumb_material_set: restitution is -1; it must be 0 to 10",
             plumb_material_set(W, f->wood, &desc));
 }
 

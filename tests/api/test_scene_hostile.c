@@ -15,7 +15,11 @@ static const double SECONDS = 0.01; // [s] of processor time, of handlers where 
 static const double LONGEST =
     0.05; // [s] else: what one instruction of Lua does alone has no other limit
 static const double STOP_AFTER = 0.005; // [s] of processor time
-static const double SLACK = 2;          // [s]
+#ifdef __SANITIZE_ADDRESS__
+static const double SLACK = 10; // [s] of processor time
+#else
+static const double SLACK = 2; // [s] of processor time
+#endif
 
 // What is made once, and what is then done for ever.
 static const struct work {

@@ -572,6 +572,25 @@ static void look_at_effects(lint_job *job)
     }
 }
 
+static void look_at_gains(lint_job *job)
+{
+    for (int i = 0; i < body_count(job); i++) {
+        const plumb_body body = body_at(job, i);
+        plumb_shape *list = NULL;
+        const int count = shapes_of(job, body, &list);
+        for (int k = 0; k < count; k++) {
+            plumb_material_desc m;
+            if (plumb_material_get(job->world, plumb_shape_material(job->world, list[k]), &m) ==
+                    PLUMB_OK &&
+                m.restitution > 1) {
+                tell(job, "'%s' has a restitution of %.3g", name_of(job, body),
+                     (double)m.restitution);
+                break;
+            }
+        }
+    }
+}
+
 static void look_at_overlaps(lint_job *job)
 {
     const engine_overlap *list;

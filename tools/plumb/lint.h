@@ -17,6 +17,8 @@
       "let categories and masks name one another; what is to meet nothing says so")                                          \
     X("effect-on-none", look_at_effects, "a setting, a surface or a joint acts on nothing",                                  \
       "take it away, or give it force, friction or a dynamic body")                                                                              \
+    X("energy-gain", look_at_gains, "a restitution above 1: each bounce gives energy, until restitution_cap ends it",       \
+      "1 or less; a bumper that is meant says so")                                                                          \
     X("overlap", look_at_overlaps, "bodies begin inside one another and are pushed apart",                                   \
       "move them apart, let their filters not meet, or join them")                                                           \
     X("size", look_at_sizes, "a body is thinner or thicker than is measured, or too far from the origin for its size",       \
