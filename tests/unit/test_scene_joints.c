@@ -305,7 +305,8 @@ static void test_edit_errors(void **state)
     static const char *const rows[][2] = {
         { "c.friction = 'high'",
           "test.lua:3:1: 'friction' of a contact must be a number, not a string" },
-        { "c.restitution = 11", "test.lua:3:1: edit_contact: restitution is 11; it must be 0 to 10" },
+        { "c.restitution = 11",
+          "test.lua:3:1: edit_contact: restitution is 11; it must be 0 to 10" },
         { "c.enabled = nil",
           "test.lua:3:1: 'enabled' of a contact must be true or false, not nothing" },
         { "body{ box{1, 1} }", NULL },
