@@ -263,14 +263,14 @@ static const malformed table[] = {
       .text = "body{ box{1, 1}, at = {math.huge, 0} }",
       .code = SCENE_E_RANGE,
       .message = "scene.lua:1:18: 'at' of body{} must be finite, not inf" },
-    { .what = "restitution above 1",
+    { .what = "restitution above 10",
       .file = "scene.lua",
       .text = "local m = material{\n"
               "  friction = 0.5,\n"
-              "  restitution = 1.5 }\n"
+              "  restitution = 10.5 }\n"
               "body{ box{1, 1}, material = m }",
       .code = SCENE_E_RANGE,
-      .message = "scene.lua:3:3: 'restitution' of material{} must be at least 0 and at most 1, not 1.5" },
+      .message = "scene.lua:3:3: 'restitution' of material{} must be at least 0 and at most 10, not 10.5" },
     { .what = "friction negative",
       .file = "scene.lua",
       .text = "local m = material{ friction = -1 }\n"

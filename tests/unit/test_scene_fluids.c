@@ -67,6 +67,8 @@ static void mistakes_are_told(void **state)
         { "wind{ box{1, 1}, gust = -1 }", "gust" },
         { "wind{ flow = {1, 0} }", "shape" },
         { "wind{ box{1, 1}, eddies = -1 }", "eddies" },
+        { "wind{ box{1, 1}, swril = 1 }", "did you mean 'swirl'?" },
+        { "water{ box{1, 1}, flwo = {1, 0} }", "did you mean 'flow'?" },
         { "wind{ box{1, 1}, core_radius = 0 }", "core_radius" },
         { "fluid_at(1)", "number expected" },
         { "water(3)", "water" },

@@ -447,6 +447,7 @@ _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *lis
     for (int i = 0; i < list->count; i++) {
         sc_suggest_offer(&g, list->rows[i].name);
     }
+    sc_offer_fluid_keys(site, &g);
     for (int i = 0; sc_synonyms[i].elsewhere != NULL && sc_suggest_best(&g) == NULL; i++) {
         sc_suggest h = sc_suggest_start(key);
         sc_suggest_offer(&h, sc_synonyms[i].elsewhere);

@@ -54,6 +54,17 @@ static void split(scene *s, const sc_site *site, int from, int material, int bod
     }
 }
 
+void sc_offer_fluid_keys(const sc_site *site, sc_suggest *g)
+{
+    if (strcmp(site->construct, "water") != 0 && strcmp(site->construct, "wind") != 0) {
+        return;
+    }
+    sc_suggest_offer(g, "flow");
+    for (int i = 0; i < sc_list_material.count; i++) {
+        sc_suggest_offer(g, sc_list_material.rows[i].name);
+    }
+}
+
 // Leaves the body on the stack; `wind`: of nothing more than air.
 static void build_fluid(scene *s, const sc_site *site, int table, bool wind)
 {

@@ -380,11 +380,13 @@ void sc_begin_handlers(scene *s); ///< begins those of a step, of the end or of 
 void sc_work(scene *s, uint64_t work);
 /// The same for what is done on the way to handlers: it counts for the step, and for no call.
 void sc_step_work(scene *s, uint64_t work);
+/// In water{} and wind{} keys of materials may have been meant, too, and `flow`.
+void sc_offer_fluid_keys(const sc_site *site, sc_suggest *g);
 /// Counts a question to the world: what it costs at least, and a share for every shape it may look at.
 void sc_query_work(scene *s);
 void sc_open_build(lua_State *L);      ///< scene, material, body, camera, param, ...
 void sc_open_materials(lua_State *L);  ///< material, material_pair
-void sc_open_fluids(lua_State *L);     ///< water, wind
+void sc_open_fluids(lua_State *L);     ///< water, wind, fluid_at
 void sc_open_shapes(lua_State *L);     ///< box, circle, ...
 void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast
