@@ -210,7 +210,7 @@ typedef struct plumb_stats {
     uint32_t exact_islands;      ///< islands that a world of the soft step solved exactly in the last step, unasked
     uint32_t exact_missed;       ///< of its solutions in that step, those that missed the tolerance; the first one of a
                                  ///< world is also a warning in the log
-    uint32_t soft_missed;        ///< substeps in all whose soft bodies had not settled when the iteration ended (after 24
+    uint32_t soft_missed;        ///< substeps in all whose soft bodies had not settled when the iteration ended (after 48
                                  ///< passes); the first one is also a warning in the log
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something

@@ -6,7 +6,7 @@
 // (elements.c), stiff for all of the mass that may press: no restitution, and what is pressed sinks by less than
 // g h^2 / 10. Friction: a damper that gives all that Coulomb's law allows at a slip of a four-hundredth of g h, so what is held
 // creeps by less. Coulomb's law goes by the normal forces of the pass before, and after a few passes by those that it has then: so
-// the function stays one, and convex, and Newton's iteration ends. What slides has no stiffness; a fiftieth of the secant's
+// the function stays one, and convex, and Newton's iteration ends. Where they are others by then, it goes on, once, by these. What slides has no stiffness; a fiftieth of the secant's
 // keeps light nodes from being sent far (DECISIONS.md).
 //
 // Reads: points, rows, pieces. Writes: bodies and obstacles of the step, contacts, the matrix. Cost: once a step
@@ -19,6 +19,7 @@
 #define STIFFNESS 10.0 // of a contact, times mass / h^2
 #define PUSH_OUT  0.2  // [m/s]
 #define LAG       5    // passes; after these the normal forces that bound friction stay as they are
+#define BOUND     0.3  // of all bounds of friction: a change that is worth more passes
 #define SLIDING   0.02 // of the secant stiffness of what slides
 
 static pl_soft_point *points_of(const pl_soft_step *s)
@@ -372,8 +373,8 @@ static double press(pl_soft_step *s, pl_soft_contact *c, double h, bool fills)
     const double force = gap < 0 ? -c->stiffness * gap : 0;
     if (fills) {
         c->most = s->pass == 0 ? 0 : s->pass < LAG ? c->friction * force : c->most;
-        c->force = force;
     }
+    c->force = force;
     double energy = force * -gap / 2;
     if (force > 0 && fills) {
         act(s, c, &n, h * force, h * h * c->stiffness);
@@ -399,4 +400,20 @@ double pl_soft_press(pl_soft_step *s, double h, bool fills)
         energy += press(s, &contacts[i], h, fills);
     }
     return energy;
+}
+
+// So early as the first passes end normal forces may be those of a rope that is not tight yet.
+bool pl_soft_bind(pl_soft_step *s)
+{
+    pl_soft_contact *contacts = s->contacts.data;
+    double changed = 0, sum = 0;
+    for (uint32_t i = 0; i < s->contact_count; ++i) {
+        pl_soft_contact *c = &contacts[i];
+        const double most = c->friction * c->force;
+        changed += fabs(most - c->most);
+        sum += most;
+        c->most = most;
+    }
+    s->pass = s->pass < LAG ? LAG : s->pass; // from now on they stay
+    return changed > BOUND * sum;
 }

@@ -8,8 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_PASSES 48
-#define SECTIONS    14 // of a way, by 0.618 each
+#define ROUNDS                                                                                     \
+    2 // of passes: in the second friction is bound by the normal forces that the first ended with
+#define SECTIONS 14 // of a way, by 0.618 each
 #define CREEP                                                                                      \
     2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
 #define ENOUGH_OF_IT                                                                               \
@@ -261,19 +262,27 @@ void pl_soft_newton(plumb_world *world, double h)
     const double fall = h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
     const double small = SMALL * fall, told = TOLD * fall;
     const double enough = s->mass * (small * small + 1e-12);
-    double gain = INFINITY;
     s->pass = 0;
     s->creep = CREEP * fall + 1e-9;
-    while (s->pass < PL_SOFT_PASSES && (gain > enough || (s->pass < 3 && s->contact_count > 0))) {
-        gain = pass(world, h, enough);
-        if (!(gain < 1e300)) { // no number: as if nothing pulled
-            guess(world, h);
+    bool settled = false;
+    for (int round = 0; round < ROUNDS && (round == 0 || pl_soft_bind(s)); ++round) {
+        const int until = s->pass + PL_SOFT_PASSES;
+        double gain = INFINITY;
+        while (s->pass < until && (gain > enough || (s->pass < 3 && s->contact_count > 0))) {
+            gain = pass(world, h, enough);
+            if (!(gain < 1e300)) { // no number: as if nothing pulled
+                guess(world, h);
+                break;
+            }
+            ++s->pass;
+        }
+        settled = gain <= moved_mass(s) * (told * told + 1e-12);
+        evaluate(world, h, false);
+        if (!settled) {
             break;
         }
-        ++s->pass;
     }
-    s->missed += gain <= moved_mass(s) * (told * told + 1e-12) ? 0 : 1;
-    evaluate(world, h, false);
+    s->missed += settled ? 0 : 1;
     store_substep(world, h);
     ++s->done;
 }

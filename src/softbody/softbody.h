@@ -74,5 +74,7 @@ uint32_t pl_soft_body_of(plumb_world *world,
 void pl_soft_find_contacts(plumb_world *world, double h);
 // As pl_soft_elements. What holds by friction goes by the normal forces of the last time that it filled.
 double pl_soft_press(pl_soft_step *s, double h, bool fills);
+// Bounds friction by the normal forces of now. Whether that changed the bounds by much.
+bool pl_soft_bind(pl_soft_step *s);
 
 #endif
