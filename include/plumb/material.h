@@ -100,7 +100,8 @@ typedef struct plumb_material_desc {
     /// that holds the volume; it moves along with that, and a jet turns with it. Each edge of what is in it feels the flow
     /// that is there.
     /// What lifts (no wind) also pushes what floats towards the middle of its turns, as it does itself:
-    /// (1 + added_mass) of the mass that is displaced, times the fluid's acceleration.
+    /// (1 + added_mass) of the mass that is displaced, times the fluid's acceleration. Each of two volumes at one place drags as if
+    /// it were alone: what belongs together, as a jet with eddies, is one material.
 
     /// [m^2/s] circulation of a vortex, positive from +x to +y: at the distance r the fluid goes round at
     /// swirl / (2 pi r) (1 - exp(-(r / core_radius)^2)) (Lamb, Oseen); within the core nearly as a wheel does
