@@ -137,8 +137,7 @@ RESERVE(pl_fluids_find)
 RESERVE(pl_fluids_immerse)
 ROW(pl_fluid_row)
 VOID(pl_fluid_volume, const plumb_world *world, uint32_t piece, pl_volume *out)
-VOID(pl_fluid_flow, const plumb_world *world, const pl_volume *volume, double x, double y, double height, double time, double out[2])
-VOID(pl_local_flow, const plumb_world *world, const pl_volume *volume, double x, double y, double since, double out[2])
+VOID(pl_fluid_velocity, const plumb_world *world, const pl_volume *volume, double x, double y, const double from[2], double since, double out[2])
 GIVES(bool, pl_fluid_acts_on, false, const plumb_world *world, uint32_t row)
 #endif
 

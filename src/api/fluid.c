@@ -18,22 +18,16 @@ static bool accept_fluid(void *context, plumb_shape shape)
            world->materials.fluid[world->pieces.material[piece]];
 }
 
-// The velocity of the fluid of a shape, from the centre of mass of its body on.
 static plumb_vec2 velocity_in(const plumb_world *world, uint32_t piece, plumb_vec2 position)
 {
     pl_volume volume;
     pl_fluid_volume(world, piece, &volume);
-    const pl_bodies *b = &world->bodies;
     const uint32_t row = world->pieces.body[piece];
     const pl_shift arm = pl_wrap_arm(world, row, (double)position.x, (double)position.y);
-    const double height = volume.up_x * arm.x + volume.up_y * arm.y - volume.bottom;
-    const double w = (double)b->w[row];
-    double even[2], local[2];
-    pl_fluid_flow(world, &volume, (double)position.x, (double)position.y, height, world->time,
-                  even);
-    pl_local_flow(world, &volume, arm.x, arm.y, 0, local);
-    return (plumb_vec2){ (real)(even[0] + local[0] + (double)b->vx[row] - w * arm.y),
-                         (real)(even[1] + local[1] + (double)b->vy[row] + w * arm.x) };
+    const double from[2] = { arm.x, arm.y };
+    double out[2];
+    pl_fluid_velocity(world, &volume, (double)position.x, (double)position.y, from, 0, out);
+    return (plumb_vec2){ (real)out[0], (real)out[1] };
 }
 
 plumb_fluid_sample plumb_fluid_at(plumb_world *world, plumb_vec2 position)

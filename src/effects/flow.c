@@ -54,3 +54,17 @@ void pl_fluid_flow(const plumb_world *world, const pl_volume *volume, double x, 
     out[0] = share * fx;
     out[1] = share * fy;
 }
+
+void pl_fluid_velocity(const plumb_world *world, const pl_volume *volume, double x, double y,
+                       const double from[2], double since, double out[2])
+{
+    const pl_bodies *b = &world->bodies;
+    const uint32_t holder = world->pieces.body[volume->piece];
+    const double height = volume->up_x * from[0] + volume->up_y * from[1] - volume->bottom;
+    const double w = (double)b->w[holder];
+    double even[2], local[2];
+    pl_fluid_flow(world, volume, x, y, height, world->time + since, even);
+    pl_local_flow(world, volume, from[0], from[1], since, local);
+    out[0] = even[0] + local[0] + (double)b->vx[holder] - w * from[1];
+    out[1] = even[1] + local[1] + (double)b->vy[holder] + w * from[0];
+}

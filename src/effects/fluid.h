@@ -56,6 +56,11 @@ bool pl_shelter_find(plumb_world *world);
 void pl_fluid_flow(const plumb_world *world, const pl_volume *volume, double x, double y,
                    double height, double time, double out[2]);
 
+// All of the flow [m/s], the motion of the volume's body included, at the place (x, y) [m] in the world that is `from` the centre of
+// that body, `since` [s] after the step began.
+void pl_fluid_velocity(const plumb_world *world, const pl_volume *volume, double x, double y,
+                       const double from[2], double since, double out[2]);
+
 //---- local_flow.c --------------------------------------------------------------------------------
 
 // How far apart places are that a volume's local flow must be asked at; 0: it has none.
@@ -67,8 +72,17 @@ void pl_local_flow(const plumb_world *world, const pl_volume *volume, double x, 
 // Acceleration [m/s^2] there of what flows at `flow` in all.
 void pl_local_acceleration(const plumb_world *world, const pl_volume *volume, double x, double y,
                            double since, const double flow[2], double out[2]);
-// Drag on an outline whose volume's body is `away` [m], at velocities u against the even flow: adds to the matrix, and to force and torque.
-void pl_local_drag(const plumb_world *world, const pl_volume *volume, const pl_contour *contour,
-                   pl_spin u, const double away[2], double since, pl_drag *drag, double force[3]);
+
+// What is in a volume.
+typedef struct pl_immersed {
+    const plumb_world *world;
+    const pl_volume *volume;
+    double away[2]; // [m] from its centre to the volume's body
+    double since;   // [s] since the step began
+} pl_immersed;
+
+// Drag on an outline at velocities u against the even flow (pl_contour_drag): adds to the matrix, and to force and torque.
+void pl_local_drag(const pl_immersed *in, const pl_contour *contour, pl_spin u, double pressure,
+                   double skin, pl_drag *drag, double force[3]);
 
 #endif

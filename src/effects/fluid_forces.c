@@ -129,36 +129,26 @@ static pl_spin against(const plumb_world *world, const pl_volume *volume, uint32
                       (double)body->w - w };
 }
 
-// What is in a volume.
-typedef struct immersed {
-    const plumb_world *world;
-    const pl_volume *volume;
-    double away[2]; // [m] from its centre to the volume's body
-    double time;    // [s] since the step began
-} immersed;
-
 // The drag of an outline at a velocity against the even flow.
-static void drag_outline(const immersed *in, const pl_contour *contour, pl_spin u, pl_pull *pull)
+static void drag_outline(const pl_immersed *in, const pl_contour *contour, pl_spin u, pl_pull *pull)
 {
     const pl_materials *m = &in->world->materials;
     const uint32_t material = in->volume->material;
+    const double pressure = (double)(m->drag[material] * m->density[material]);
+    const double skin = (double)(m->skin_drag[material] * m->density[material]);
     pl_drag d = { 0 };
     if (in->volume->grain > 0) {
-        pl_local_drag(in->world, in->volume, contour, u, in->away, in->time, &d, pull->force);
-        add_drag(pull, &d);
-        return;
+        pl_local_drag(in, contour, u, pressure, skin, &d, pull->force);
+    } else {
+        pl_contour_drag(contour, u, pressure, skin, &d);
+        pl_drag_force(&d, u, pull->force);
     }
-    pl_contour_drag(contour, u, (double)(m->drag[material] * m->density[material]),
-                    (double)(m->skin_drag[material] * m->density[material]), &d);
     add_drag(pull, &d);
-    pull->force[0] -= (d.xx * u.vx + d.xy * u.vy + d.xw * u.w) / 2;
-    pull->force[1] -= (d.xy * u.vx + d.yy * u.vy + d.yw * u.w) / 2;
-    pull->force[2] -= (d.xw * u.vx + d.yw * u.vy + d.ww * u.w) / 2;
 }
 
 // What of an outline lies from low to high across a unit vector.
-static void drag_strip(const immersed *in, const pl_contour *contour, const double n[2], double low,
-                       double high, pl_spin u, pl_pull *pull)
+static void drag_strip(const pl_immersed *in, const pl_contour *contour, const double n[2],
+                       double low, double high, pl_spin u, pl_pull *pull)
 {
     pl_contour strip = *contour;
     if (high < INFINITY) {
@@ -173,7 +163,7 @@ static void drag_strip(const immersed *in, const pl_contour *contour, const doub
 }
 
 // The same strip by strip where some are sheltered; (x, y): what the outline is relative to, in the world.
-static void drag_shaded(const immersed *in, const pl_contour *contour, pl_shadow shadow,
+static void drag_shaded(const pl_immersed *in, const pl_contour *contour, pl_shadow shadow,
                         const double flow[2], double x, double y, pl_spin u, pl_pull *pull)
 {
     const plumb_world *world = in->world;
@@ -206,24 +196,27 @@ static pl_shadow shadow_of(const plumb_world *world, const pl_keyed *immersion)
 }
 
 // The local flow at a body's centre: it is against that, too; and pushed as the fluid is that it displaces.
-static void go_along(const immersed *in, const pl_contour *contour, double flow[2], pl_spin *u,
+static void go_along(const pl_immersed *in, const pl_contour *contour, double flow[2], pl_spin *u,
                      pl_pull *pull)
 {
     const pl_materials *m = &in->world->materials;
     const uint32_t of = in->volume->material;
     double local[2], a[2];
-    pl_local_flow(in->world, in->volume, -in->away[0], -in->away[1], in->time, local);
+    pl_local_flow(in->world, in->volume, -in->away[0], -in->away[1], in->since, local);
     u->vx -= local[0];
     u->vy -= local[1];
     flow[0] += local[0];
     flow[1] += local[1];
+    if (m->weightless[of]) {
+        return;
+    }
     const pl_area part = pl_contour_area(contour);
-    if (m->weightless[of] || !(part.area > 0)) {
+    if (!(part.area > 0)) {
         return;
     }
     const double mass = (double)m->density[of] * (1 + (double)m->added_mass[of]) * part.area;
     const double x = part.x / part.area, y = part.y / part.area;
-    pl_local_acceleration(in->world, in->volume, x - in->away[0], y - in->away[1], in->time, flow,
+    pl_local_acceleration(in->world, in->volume, x - in->away[0], y - in->away[1], in->since, flow,
                           a);
     add_force(pull, mass * a[0], mass * a[1], x, y);
 }
@@ -240,7 +233,7 @@ static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immer
                               (double)body->dy + half * (double)body->vy,
                               (double)body->da + half * (double)body->w };
     pl_contour contour;
-    immersed in = { .world = world, .volume = volume, .time = p->time };
+    pl_immersed in = { .world = world, .volume = volume, .since = p->time };
     pl_fluid_contour(world, volume, piece, moved, p->time, &contour, in.away);
     if (contour.count == 0) {
         return;

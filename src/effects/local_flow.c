@@ -123,6 +123,9 @@ void pl_local_flow(const plumb_world *world, const pl_volume *volume, double x, 
     const pl_materials *m = &world->materials;
     const double ox = x - volume->origin_x, oy = y - volume->origin_y;
     out[0] = out[1] = 0;
+    if (volume->grain == 0) {
+        return;
+    }
     add_vortex(m, volume->material, ox, oy, out);
     add_jet(world, volume, ox, oy, since, out);
     add_eddies(m, volume->material, ox, oy, world->time + since, out);
@@ -148,7 +151,7 @@ void pl_local_acceleration(const plumb_world *world, const pl_volume *volume, do
 {
     const double speed = sqrt(flow[0] * flow[0] + flow[1] * flow[1]);
     out[0] = out[1] = 0;
-    if (!(speed > 0) || volume->grain == 0) {
+    if (!(speed > 0)) {
         return;
     }
     const double time = volume->grain / 1000 / speed;
@@ -161,23 +164,22 @@ void pl_local_acceleration(const plumb_world *world, const pl_volume *volume, do
 
 //---- drag in it ----------------------------------------------------------------------------------
 
-typedef struct pl_wet {
-    const plumb_world *world;
-    const pl_volume *volume;
-    const double *away;
+typedef struct dragging {
+    const pl_immersed *in;
     pl_spin u; // against the even flow
-    double since, pressure, skin;
+    double pressure, skin;
     pl_drag *drag;
     double *force;
-} pl_wet;
+} dragging;
 
-static void flow_at(const pl_wet *w, const pl_element *e, double out[2])
+static void flow_at(const dragging *w, const pl_element *e, double out[2])
 {
-    pl_local_flow(w->world, w->volume, e->x - w->away[0], e->y - w->away[1], w->since, out);
+    const pl_immersed *in = w->in;
+    pl_local_flow(in->world, in->volume, e->x - in->away[0], e->y - in->away[1], in->since, out);
 }
 
 // What is dragged between two places with the flows there.
-static void drag_part(const pl_wet *w, const pl_element *e, const pl_element *to,
+static void drag_part(const dragging *w, const pl_element *e, const pl_element *to,
                       const double from[2], const double at_end[2])
 {
     const double dx = to->x - e->x, dy = to->y - e->y, square = dx * dx + dy * dy;
@@ -193,9 +195,7 @@ static void drag_part(const pl_wet *w, const pl_element *e, const pl_element *to
     pl_element_drag(e, to, v, w->pressure, w->skin, &d);
     w->drag->xx += d.xx, w->drag->xy += d.xy, w->drag->yy += d.yy;
     w->drag->xw += d.xw, w->drag->yw += d.yw, w->drag->ww += d.ww;
-    w->force[0] -= (d.xx * v.vx + d.xy * v.vy + d.xw * v.w) / 2;
-    w->force[1] -= (d.xy * v.vx + d.yy * v.vy + d.yw * v.w) / 2;
-    w->force[2] -= (d.xw * v.vx + d.yw * v.vy + d.ww * v.w) / 2;
+    pl_drag_force(&d, v, w->force);
 }
 
 // A place on the way along an element; of an arc, on it.
@@ -212,11 +212,11 @@ static pl_element part_of(const pl_element *e, const pl_element *to, double shar
     return at;
 }
 
-static void drag_element(const pl_wet *w, const pl_element *e, const pl_element *next,
+static void drag_element(const dragging *w, const pl_element *e, const pl_element *next,
                          double flow[2])
 {
     const double dx = next->x - e->x, dy = next->y - e->y;
-    const double wanted = sqrt(dx * dx + dy * dy) / w->volume->grain;
+    const double wanted = sqrt(dx * dx + dy * dy) / w->in->volume->grain;
     const int parts = wanted < PARTS_MOST ? (int)wanted + 1 : PARTS_MOST;
     pl_element from = *e;
     for (int i = 1; i <= parts; ++i) {
@@ -229,20 +229,10 @@ static void drag_element(const pl_wet *w, const pl_element *e, const pl_element 
     }
 }
 
-void pl_local_drag(const plumb_world *world, const pl_volume *volume, const pl_contour *contour,
-                   pl_spin u, const double away[2], double since, pl_drag *drag, double force[3])
+void pl_local_drag(const pl_immersed *in, const pl_contour *contour, pl_spin u, double pressure,
+                   double skin, pl_drag *drag, double force[3])
 {
-    const pl_materials *m = &world->materials;
-    const uint32_t of = volume->material;
-    const pl_wet w = { world,
-                       volume,
-                       away,
-                       u,
-                       since,
-                       (double)(m->drag[of] * m->density[of]),
-                       (double)(m->skin_drag[of] * m->density[of]),
-                       drag,
-                       force };
+    const dragging w = { in, u, pressure, skin, drag, force };
     bool known = false;
     double flow[2];
     for (int i = 0; i < contour->count; ++i) {

@@ -200,3 +200,10 @@ void pl_contour_drag(const pl_contour *o, pl_spin v, double pressure, double ski
         }
     }
 }
+
+void pl_drag_force(const pl_drag *d, pl_spin v, double force[3])
+{
+    force[0] -= (d->xx * v.vx + d->xy * v.vy + d->xw * v.w) / 2;
+    force[1] -= (d->xy * v.vx + d->yy * v.vy + d->yw * v.w) / 2;
+    force[2] -= (d->xw * v.vx + d->yw * v.vy + d->ww * v.w) / 2;
+}

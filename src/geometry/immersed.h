@@ -72,6 +72,9 @@ void pl_contour_drag(const pl_contour *outline, pl_spin v, double pressure, doub
 void pl_element_drag(const pl_element *e, const pl_element *next, pl_spin v, double pressure,
                      double skin, pl_drag *drag);
 
+// Adds the force -D v / 2 to a force and a torque.
+void pl_drag_force(const pl_drag *drag, pl_spin v, double force[3]);
+
 // [m], [m^3] the width of all cuts across the unit vector (x, y), towards which they face, and its second moment: how
 // a surface there pushes back.
 typedef struct pl_waterline {

@@ -6,8 +6,8 @@
 // (elements.c), stiff for all of the mass that may press: no restitution, and what is pressed sinks by less than
 // g h^2 / 10. Friction: a damper that gives all that Coulomb's law allows at a slip of a four-hundredth of g h, so what is held
 // creeps by less. Coulomb's law goes by the normal forces of the pass before, and after a few passes by those that it has then: so
-// the function stays one, and convex, and Newton's iteration ends. Where they are others by then, it goes on, once, by these. What slides has no stiffness; a fiftieth of the secant's
-// keeps light nodes from being sent far (DECISIONS.md).
+// the function stays one, and convex, and Newton's iteration ends. Where they are others by then, it goes on, once, by
+// these. What slides has no stiffness; a fiftieth of the secant's keeps light nodes from being sent far (DECISIONS.md).
 //
 // Reads: points, rows, pieces. Writes: bodies and obstacles of the step, contacts, the matrix. Cost: once a step
 // O(bodies + pieces), and nodes times pieces in the box of their soft body; a substep O(what is near).

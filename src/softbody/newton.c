@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUNDS                                                                                     \
-    2 // of passes: in the second friction is bound by the normal forces that the first ended with
+#define ROUNDS   2  // of passes: friction of the second goes by the normal forces of the first
 #define SECTIONS 14 // of a way, by 0.618 each
 #define CREEP                                                                                      \
     2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives

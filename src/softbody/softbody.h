@@ -72,7 +72,7 @@ uint32_t pl_soft_body_of(plumb_world *world,
                          uint32_t row); // place in the list; PL_NONE: out of memory
 // Contacts of a substep.
 void pl_soft_find_contacts(plumb_world *world, double h);
-// As pl_soft_elements. What holds by friction goes by the normal forces of the last time that it filled.
+// As pl_soft_elements. What holds by friction goes by the normal forces that bound it: pl_soft_bind, and the first passes.
 double pl_soft_press(pl_soft_step *s, double h, bool fills);
 // Bounds friction by the normal forces of now. Whether that changed the bounds by much.
 bool pl_soft_bind(pl_soft_step *s);

@@ -15,8 +15,7 @@ typedef struct wind {
     pl_volume volume;
     plumb_filter filter;
     double density;
-    double x, y, vx, vy,
-        w; // [m], [m/s], [rad/s] of the centre of the body that holds it, as the step begins
+    double x, y, vx, vy; // [m], [m/s] of the centre of the body that holds it, as the step begins
 } wind;
 
 static bool any_is_dragged(const pl_softbodies *all)
@@ -32,16 +31,14 @@ static void see_wind(const plumb_world *world, uint32_t row, uint32_t piece, win
 {
     const pl_bodies *b = &world->bodies;
     const pl_pieces *p = &world->pieces;
-    const bool moves = row < world->dynamic_count + world->kinematic_count;
     pl_fluid_volume(world, piece, &out->volume);
     out->filter =
         (plumb_filter){ p->category[piece], p->mask[piece], p->group[piece], p->mask[piece] == 0 };
     out->density = (double)world->materials.density[p->material[piece]];
     out->x = (double)b->center_x[row] + (double)b->residual_x[row];
     out->y = (double)b->center_y[row] + (double)b->residual_y[row];
-    out->vx = moves ? (double)b->vx[row] : 0;
-    out->vy = moves ? (double)b->vy[row] : 0;
-    out->w = moves ? (double)b->w[row] : 0;
+    out->vx = (double)b->vx[row];
+    out->vy = (double)b->vy[row];
 }
 
 bool pl_soft_find_winds(plumb_world *world)
@@ -90,16 +87,12 @@ static void feel(const plumb_world *world, const plumb_filter *filter, pl_soft_p
             !plumb_filters_meet(w->filter, *filter)) {
             continue;
         }
+        const double from[2] = { x, y };
         double flow[2];
-        const double height = w->volume.up_x * x + w->volume.up_y * y - w->volume.bottom;
-        double local[2] = { 0, 0 };
-        pl_fluid_flow(world, &w->volume, p->x, p->y, height, world->time + since, flow);
-        if (w->volume.grain > 0) {
-            pl_local_flow(world, &w->volume, x, y, since, local);
-        }
+        pl_fluid_velocity(world, &w->volume, p->x, p->y, from, since, flow);
         densest = w->density;
-        p->wind_x = flow[0] + local[0] + w->vx - w->w * y;
-        p->wind_y = flow[1] + local[1] + w->vy + w->w * x;
+        p->wind_x = flow[0];
+        p->wind_y = flow[1];
     }
 }
 

@@ -69,7 +69,7 @@ typedef struct pl_soft_contact {
     double gap;      // [m] as the substep begins
     double rx, ry;   // [m] from the centre of mass to where it touches
     double stiffness, friction;
-    double force;    // [N] as the last pass had it
+    double force;    // [N] where it was asked last
     double most;     // [N] that friction holds
 } pl_soft_contact;
 
