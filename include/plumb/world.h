@@ -53,6 +53,11 @@ typedef struct plumb_world_desc {
                                     ///< there is: where a body lies on one that is ten times lighter, or contacts have borne four
                                     ///< times the weight of a body for 16 steps and give way by 2 % of it. Costs some 30 us a
                                     ///< step for two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands
+    bool no_fine_islands;           ///< Soft step: unless this is set, and while all contacts and joints that are awake are 512 at
+                                    ///< the most, islands in which dynamic bodies touch one another take four substeps in place
+                                    ///< of one (16 a step at the most), with contacts that are as much stiffer, recovery from overlap at
+                                    ///< a tenth of push_speed and two more sweeps that relax: what is as small costs next to nothing so.
+                                    ///< Not where restitution is above 0.2 or systems run in substeps. How many: plumb_stats.fine_islands
     plumb_real tolerance;           ///< [-] 0..0.5, default 0: none. Error that the world may make: it then chooses
                                     ///< solver, substeps and direct_joints itself, and those given are what it
                                     ///< begins with. See plumb/accuracy.h
@@ -210,6 +215,8 @@ typedef struct plumb_stats {
     uint32_t exact_islands;      ///< islands that a world of the soft step solved exactly in the last step, unasked
     uint32_t exact_missed;       ///< of its solutions in that step, those that missed the tolerance; the first one of a
                                  ///< world is also a warning in the log
+    uint32_t fine_islands;       ///< islands of a small world that took finer substeps in the last step
+    uint32_t fine_substeps;      ///< as many as each of them took; 0: there are none
     uint32_t soft_missed;        ///< substeps in all whose soft bodies had not settled when the iteration ended (after 48
                                  ///< passes); the first one is also a warning in the log
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept

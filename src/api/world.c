@@ -438,6 +438,8 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .bounce_count = world->solver.bounce_count,
         .exact_factored = world->exact.factored,
         .exact_islands = world->solver.hard_islands,
+        .fine_islands = world->solver.fine_islands,
+        .fine_substeps = pl_fine_substeps(world),
         .exact_missed = world->exact.missed,
         .exact_residual = world->exact.residual,
         .cut_chain_count = world->solver.cut_count,

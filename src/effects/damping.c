@@ -19,6 +19,8 @@
 #include "world/substep.h"
 #include "world/state.h"
 
+#include <math.h>
+
 // Of a record.
 typedef struct pl_damping_factors {
     pl_near_quad drop; // [1/s] (1 - E) / h of vx, vy, w; 0
@@ -145,7 +147,26 @@ typedef struct passage {
     const pl_near_quad *from; // accelerations, `stride` quads from one slot to the next
     size_t stride;
     pl_near_quad *motions;
+    double h;  // [s] substep of the world
+    int finer; // substeps of the cluster in place of one
 } passage;
+
+// What is lost in a substep of h is lost in `finer` shorter ones, a power of two of them.
+static pl_damping_factors in_finer(const pl_damping_factors *f, double h, int finer)
+{
+    pl_damping_factors out = *f;
+    for (int k = 0; k < 3; ++k) {
+        const double lost = (double)f->drop[k] * h;
+        double left = 1 - lost;
+        for (int n = finer; n > 1; n /= 2) {
+            left = sqrt(left);
+        }
+        const near_real ratio = lost > 0 ? (near_real)((1 - left) * finer / lost) : 1;
+        out.drop[k] *= ratio;
+        out.mean[k] *= ratio;
+    }
+    return out;
+}
 
 // a = a M - v (1 - E) / h.
 static void damp(void *context, uint32_t first, uint32_t count)
@@ -153,8 +174,9 @@ static void damp(void *context, uint32_t first, uint32_t count)
     const passage p = *(const passage *)context;
     for (uint32_t i = first; i < first + count; ++i) {
         const size_t slot = p.dampers[i].slot;
-        const pl_damping_factors *f = &p.factors[p.dampers[i].record];
-        p.motions[2 * slot] = p.from[p.stride * slot] * f->mean - p.bodies[2 * slot] * f->drop;
+        const pl_damping_factors *own = &p.factors[p.dampers[i].record];
+        const pl_damping_factors f = p.finer > 1 ? in_finer(own, p.h, p.finer) : *own;
+        p.motions[2 * slot] = p.from[p.stride * slot] * f.mean - p.bodies[2 * slot] * f.drop;
     }
 }
 
@@ -168,6 +190,8 @@ void pl_damping_row(pl_substep *s)
                   .bodies = (const pl_near_quad *)(const void *)pl_solver_bodies(&world->solver),
                   .motions = (pl_near_quad *)(void *)pl_solver_motions(&world->solver) };
     p.factors = e->factors.data;
+    p.finer = s->count / world->desc.substeps;
+    p.h = (double)s->h * p.finer;
     // Where nothing else acts in the substeps, no row has reset them.
     p.from = e->resets ? p.motions : e->bases.data;
     p.stride = e->resets ? 2 : 1;

@@ -220,7 +220,7 @@ static void drive(const pl_substep *s, bool ends)
     plumb_world *world = s->world;
     const pl_solver *solver = &world->solver;
     const pl_slots slots = s->cluster->slots[1];
-    const double h = (double)s->h, dt = h * world->desc.substeps;
+    const double h = (double)s->h, dt = h * s->count;
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
     for (uint32_t i = 0; i < world->tracks.count; ++i) {
         const pl_track *track = &items(world)[i];

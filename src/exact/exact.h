@@ -78,8 +78,8 @@ static inline pl_classic_contact *pl_exact_contact(const pl_exact_system *s,
     return (pl_classic_contact *)s->world->solver.classic.data + item->contact;
 }
 
-// Islands that sweeps cannot hold, of a world of the soft step, into a cluster of their own (hard.c). False when out of memory.
-bool pl_hard_find(plumb_world *world);
+// Which contacts of a world of the soft step are seeds of islands that sweeps cannot hold (hard.c).
+void pl_hard_look(plumb_world *world);
 // Behind the substeps: which contacts were solved so.
 void pl_hard_note(plumb_world *world);
 // Whether something is solved exactly in this step.

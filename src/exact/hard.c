@@ -10,25 +10,16 @@
 // are borne, so an island that has become exact stays so. What had sunk then is undone without velocity (rows.c); an island that is
 // soft again sinks in by its springs. Impulses go over.
 //
-// An island is all that hangs together by contacts and joints, through kinematic bodies too, as in solver/cluster.c, but found anew
-// in each step that has seeds: it depends on nothing else in the world, and on the past by four flags a pair. One of more
-// than MOST contacts and joints is swept, and so is one that bounces, or is driven, and one of whose bodies a system acts on alone;
-// and, until the next look, one that no substep of a step came near to solving.
+// Which islands these make is found in solver/apart.c; until the next look those stay swept that no substep of a step came near to solving.
 //
-// Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
-// clusters, before the graph. Cost: a read of the masses, where they are uneven one of the new contacts, every LOOK steps one of the manifolds; with seeds
-// O(contacts + bodies).
-#include "core/union_find.h"
-#include "effects/effects.h"
+// Reads: manifolds, masses, loads of the last step. Writes: flags of pairs. Order: before islands apart are found; behind the substeps.
+// Cost: a read of the masses, where they are uneven one of the new contacts, every LOOK steps one of the manifolds.
 #include "exact/exact.h"
-#include "joints/joint.h"
-#include "world/joint_list.h"
 #include "world/state.h"
 
 #include <math.h>
-#include <string.h>
 
-#define MOST   96   // contacts and joints of an island
+#define MANY   96   // contacts of a body whose island is not small
 #define DEEP   2e-2 // of the way from the contact to the centre of mass
 #define UNEVEN 10.0
 #define BORNE  0.25
@@ -39,38 +30,31 @@
 
 #define SOFTNESS 0.912 // (6 / (2 pi))^2: 1 / (w h)^2 of soft.c
 
-typedef struct pl_hard_tally {
-    uint32_t contacts; // and joints
-    bool seeded, barred;
-} pl_hard_tally;
-
-// What an island is told by.
-typedef struct search {
+// What contacts are looked at with.
+typedef struct look_at {
     plumb_world *world;
-    const pl_ends *ends, *ties;
-    uint32_t contacts, joints, movable, dynamic;
-    uint32_t *leaders;
-    pl_hard_tally *tallies; // of leaders
-    double h;               // [s] substep of the last step, by which loads are known
-    double weight;          // [m/s^2] of a kilogram
-    bool uneven;            // masses are
-} search;
+    const pl_ends *ends;
+    uint32_t contacts, dynamic;
+    double h;      // [s] substep of the last step, by which loads are known
+    double weight; // [m/s^2] of a kilogram
+    bool uneven;   // masses are
+} look_at;
 
-static double inverse_mass(const search *s, uint32_t row)
+static double inverse_mass(const look_at *s, uint32_t row)
 {
     return row < s->dynamic ? (double)s->world->bodies.inv_mass[row] : 0;
 }
 
 //---- seeds ---------------------------------------------------------------------------------------------
 
-static bool are_uneven(const search *s, uint32_t row_a, uint32_t row_b)
+static bool are_uneven(const look_at *s, uint32_t row_a, uint32_t row_b)
 {
     const double a = inverse_mass(s, row_a), b = inverse_mass(s, row_b);
     return (a > UNEVEN * b && b > 0) || (b > UNEVEN * a && a > 0);
 }
 
 // [m] from a contact to the nearer centre of mass of those that move, along the normal.
-static double arm_of(const search *s, const pl_manifold *m)
+static double arm_of(const look_at *s, const pl_manifold *m)
 {
     const bool a = inverse_mass(s, m->body_a) > 0, b = inverse_mass(s, m->body_b) > 0;
     double arm = (double)PL_APART;
@@ -90,7 +74,7 @@ typedef struct burden {
 } burden;
 
 // False: it bears less than what makes it one that is pressed.
-static bool burden_of(const search *s, const pl_manifold *m, burden *out)
+static bool burden_of(const look_at *s, const pl_manifold *m, burden *out)
 {
     const double load = (double)m->point[0].normal + (double)m->point[1].normal;
     *out = (burden){ false, 0 };
@@ -107,7 +91,7 @@ static bool burden_of(const search *s, const pl_manifold *m, burden *out)
 }
 
 // The heavier body is on the lighter one, and near it.
-static bool is_above(const search *s, const pl_manifold *m)
+static bool is_above(const look_at *s, const pl_manifold *m)
 {
     const plumb_vec2 g = s->world->gravity;
     const double down = (double)m->nx * (double)g.x + (double)m->ny * (double)g.y; // from A to B
@@ -115,24 +99,19 @@ static bool is_above(const search *s, const pl_manifold *m)
     return (b_heavier ? -down : down) > ABOVE * s->weight;
 }
 
-static pl_pair *pair_of(const search *s, uint32_t contact)
+static pl_pair *pair_of(const look_at *s, uint32_t contact)
 {
     return &pl_pairs(&s->world->broad.pairs)[pl_manifolds(&s->world->narrow)[contact].pair];
 }
 
-static bool is_seed(const search *s, uint32_t i)
-{
-    return (pair_of(s, i)->flags & PL_PAIR_PRESSED) != 0;
-}
-
 // Uneven, whether the lighter body bears much already or not.
-static bool is_uneven(const search *s, const pl_manifold *m, const burden *b)
+static bool is_uneven(const look_at *s, const pl_manifold *m, const burden *b)
 {
     return are_uneven(s, m->body_a, m->body_b) &&
            ((is_above(s, m) && pl_is_near(m, NEAR)) || (b->deep && b->heavier > BORNE));
 }
 
-static uint32_t contacts_of(const search *s, uint32_t row)
+static uint32_t contacts_of(const look_at *s, uint32_t row)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < s->contacts; ++i) {
@@ -142,7 +121,7 @@ static uint32_t contacts_of(const search *s, uint32_t row)
 }
 
 // Contacts that have just come are looked at at once.
-static void look_at_new(const search *s)
+static void look_at_fresh(const look_at *s)
 {
     const uint32_t *fresh = s->world->narrow.fresh.data;
     uint32_t asked =
@@ -159,7 +138,7 @@ static void look_at_new(const search *s)
         const uint32_t heavier = a_heavier ? pair->body_a : pair->body_b;
         if (asked == PL_NONE) {
             asked = heavier;
-            large = contacts_of(s, heavier) > MOST;
+            large = contacts_of(s, heavier) > MANY;
         }
         if (heavier == asked && large) {
             pair->flags |= PL_PAIR_LARGE;
@@ -176,7 +155,7 @@ static bool is_look_due(uint64_t step)
 }
 
 // Which contacts are loaded, and were so at the last look. A step that is taken anew looks anew: two flags take turns.
-static void look(const search *s)
+static void look(const look_at *s)
 {
     const uint64_t n = s->world->step_count;
     const bool one = n < LOOK ? n == 2 || n == 8 : (n / LOOK & 1) == 0; // 1, 2, 4, 8, 16, 32, ...
@@ -209,196 +188,28 @@ static bool masses_are_uneven(const plumb_world *world)
     return (double)most > UNEVEN * (double)least;
 }
 
-static bool any_seed(const search *s)
+void pl_hard_look(plumb_world *world)
 {
-    bool any = false;
-    for (uint32_t i = 0; !any && i < s->contacts; ++i) {
-        any = is_seed(s, i);
-    }
-    return any;
-}
-
-//---- islands -------------------------------------------------------------------------------------------
-
-static uint32_t leader_of(const search *s, const pl_ends *e)
-{
-    const uint32_t row = e->a < s->movable ? e->a : e->b;
-    return row < s->movable ? pl_union_leader(s->leaders, row) : PL_NONE;
-}
-
-static void join(const search *s, const pl_ends *ends, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; ++i) {
-        if (ends[i].a < s->movable && ends[i].b < s->movable) {
-            pl_union_join(s->leaders, ends[i].a, ends[i].b);
-        }
-    }
-}
-
-// Driven by a bounded force. Where contacts are rigid, things that jam stop it: the rod of samples/spinner.lua at 1.9 rad/s of 4.
-static bool is_driven(const plumb_joint_desc *d)
-{
-    return d->enable_motor || d->kind == PLUMB_MOUSE || d->kind == PLUMB_MOTOR ||
-           d->kind == PLUMB_FRICTION;
-}
-
-static void tally_joints(const search *s)
-{
-    const uint32_t *awake = s->world->joints.awake.data;
-    for (uint32_t i = 0; i < s->joints; ++i) {
-        const uint32_t leader = leader_of(s, &s->ties[i]);
-        if (leader != PL_NONE) {
-            pl_hard_tally *t = &s->tallies[leader];
-            ++t->contacts;
-            const plumb_joint_desc *d = &pl_joint_items(&s->world->joints)[awake[i]].desc;
-            t->barred |= pl_joint_bounces(d) || is_driven(d);
-        }
-    }
-}
-
-static void tally(const search *s)
-{
-    const pl_manifold *m = pl_manifolds(&s->world->narrow);
-    const uint8_t *called = s->world->effects.called.data;
-    pl_union_reset(s->leaders, s->movable);
-    memset(s->tallies, 0, s->movable * sizeof *s->tallies);
-    join(s, s->ends, s->contacts);
-    join(s, s->ties, s->joints);
-    for (uint32_t i = 0; i < s->contacts; ++i) {
-        const uint32_t leader = leader_of(s, &s->ends[i]);
-        pl_hard_tally *t = &s->tallies[leader];
-        ++t->contacts;
-        t->seeded = t->seeded || is_seed(s, i);
-        t->barred |= m[i].restitution > 0;
-    }
-    tally_joints(s);
-    for (uint32_t row = 0; s->world->effects.any_alone && row < s->dynamic; ++row) {
-        if ((called[row] & PL_CALLED_ALONE) != 0) {
-            s->tallies[pl_union_leader(s->leaders, row)].barred = true;
-        }
-    }
-}
-
-static bool is_hard(const search *s, uint32_t leader)
-{
-    const pl_hard_tally *t = &s->tallies[leader];
-    return t->seeded && !t->barred && t->contacts <= MOST;
-}
-
-// All of them are one cluster, the last.
-static void label(const search *s)
-{
-    pl_solver *solver = &s->world->solver;
-    const uint32_t *slots = solver->slots.data;
-    uint32_t *labels = solver->labels.data, *contacts = solver->hard_contacts.data;
-    for (uint32_t row = 0; row < s->movable; ++row) {
-        solver->hard_islands += s->leaders[row] == row && is_hard(s, row);
-    }
-    if (solver->hard_islands == 0) {
-        return;
-    }
-    if (solver->cluster_count == 1) {
-        memset(labels, 0, s->movable * sizeof *labels);
-    }
-    solver->hard_cluster = solver->cluster_count++;
-    for (uint32_t row = 0; row < s->movable; ++row) {
-        if (slots[row] != PL_NONE && is_hard(s, pl_union_leader(s->leaders, row))) {
-            labels[row] = solver->hard_cluster;
-        }
-    }
-    for (uint32_t i = 0; i < s->contacts; ++i) {
-        if (is_hard(s, leader_of(s, &s->ends[i]))) {
-            contacts[solver->hard_count++] = i;
-        }
-    }
-}
-
-// What is too large to be solved exactly is not asked about until the next look.
-static void forget_large(const search *s)
-{
-    bool kept = false;
-    for (uint32_t i = 0; i < s->contacts; ++i) {
-        pl_pair *pair = pair_of(s, i);
-        if ((pair->flags & PL_PAIR_PRESSED) == 0) {
-            continue;
-        }
-        if (is_hard(s, leader_of(s, &s->ends[i]))) {
-            kept = true;
-        } else {
-            pair->flags = (pair->flags & ~PL_PAIR_PRESSED) | PL_PAIR_LARGE;
-        }
-    }
-    s->world->solver.hard_pressed = kept;
-}
-
-static bool reserve(plumb_world *world, search *s)
-{
-    pl_solver *solver = &world->solver;
-    if (!pl_buffer_reserve(&world->memory, &solver->hard_leaders, s->movable * sizeof(uint32_t)) ||
-        !pl_buffer_reserve(&world->memory, &solver->hard_tallies,
-                           s->movable * sizeof(pl_hard_tally)) ||
-        !pl_buffer_reserve(&world->memory, &solver->hard_contacts,
-                           s->contacts * sizeof(uint32_t)) ||
-        !pl_buffer_reserve(&world->memory, &solver->labels, s->movable * sizeof(uint32_t))) {
-        return false;
-    }
-    s->leaders = solver->hard_leaders.data;
-    s->tallies = solver->hard_tallies.data;
-    return true;
-}
-
-static bool find(plumb_world *world)
-{
-    const uint32_t dynamic = world->dynamic_count;
-    search s = { .world = world,
-                 .ends = world->narrow.ends.data,
-                 .ties = world->joints.plan.ends.data,
-                 .contacts = world->narrow.manifold_count,
-                 .joints = pl_joints_tied(world),
-                 .movable = dynamic + world->kinematic_count,
-                 .dynamic = dynamic,
-                 .h = (double)world->soft_substep,
-                 .weight = sqrt((double)world->gravity.x * (double)world->gravity.x +
-                                (double)world->gravity.y * (double)world->gravity.y) };
+    look_at s = { .world = world,
+                  .ends = world->narrow.ends.data,
+                  .contacts = world->narrow.manifold_count,
+                  .dynamic = world->dynamic_count,
+                  .h = (double)world->soft_substep,
+                  .weight = sqrt((double)world->gravity.x * (double)world->gravity.x +
+                                 (double)world->gravity.y * (double)world->gravity.y) };
     if (s.contacts == 0) {
-        return true;
+        return;
     }
     s.uneven = masses_are_uneven(world);
     if (s.h > 0 && is_look_due(world->step_count)) { // else no load is known
         look(&s);
     }
     if (s.uneven && s.weight > 0) {
-        look_at_new(&s);
+        look_at_fresh(&s);
     }
-    if (!world->solver.hard_pressed || !any_seed(&s)) {
-        return true;
-    }
-    if (!reserve(world, &s)) {
-        return false;
-    }
-    tally(&s);
-    label(&s);
-    forget_large(&s);
-    return true;
 }
 
-// What was solved exactly and is swept again begins without impulses: those of the direct method share a load out among rows that
-// say the same as they like, and a sweep that starts from them throws. Who it was is told behind the substeps (pl_hard_note): a
-// step that runs out of memory before is taken again as it was.
-static void hand_over(const plumb_world *world)
-{
-    const pl_solver *solver = &world->solver;
-    const uint32_t *hard = solver->hard_contacts.data;
-    for (uint32_t i = 0, at = 0; solver->hard_before && i < world->narrow.manifold_count; ++i) {
-        pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        const bool is_hard = at < solver->hard_count && hard[at] == i;
-        const uint32_t flags = pl_pairs(&world->broad.pairs)[m->pair].flags;
-        for (uint32_t k = 0; k < m->count && !is_hard && (flags & PL_PAIR_EXACT) != 0; ++k) {
-            m->point[k].normal = m->point[k].tangent = 0;
-        }
-        at += is_hard;
-    }
-}
+//---- behind the substeps -------------------------------------------------------------------------------
 
 // Islands that no substep came near to solving: sweeps may have them until the next look.
 static void give_up(const plumb_world *world)
@@ -438,13 +249,4 @@ void pl_hard_note(plumb_world *world)
         pair->flags = (pair->flags & ~PL_PAIR_EXACT) | (is_hard ? PL_PAIR_EXACT : 0);
     }
     solver->hard_before = solver->hard_count > 0;
-}
-
-bool pl_hard_find(plumb_world *world)
-{
-    if (!find(world)) {
-        return false;
-    }
-    hand_over(world);
-    return true;
 }

@@ -76,7 +76,7 @@
       "components, rows", "constraints", ONE)                                                                                                \
     X("clusters",          GRAPH,       IF(pl_want_solver),          ONCE(pl_run_clusters),                                  ONCE,           \
       "manifolds, joints, islands", "constraints, joints", ONE)                                                                              \
-    X("hard islands",      GRAPH,       IF(pl_want_hard_islands),    ONCE(pl_run_hard_islands),                              ONCE,           \
+    X("islands apart",     GRAPH,       IF(pl_want_apart),           ONCE(pl_run_apart),                                     ONCE,           \
       "manifolds, pairs, joints, masses", "constraints, pairs", ONE)                                                                         \
     X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \

@@ -33,7 +33,7 @@
 // clang-format off
 #define PL_STATE_DESC(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     PL_WORLD_ROWS(PL_ROW_STATE, VALUE)                                                            \
-    TALLY(desc.no_exact_islands) LEFT(desc.workers) LEFT(desc.measure) LEFT(desc.watchdog) LEFT(desc.tasks)                                                            \
+    TALLY(desc.no_exact_islands) TALLY(desc.no_fine_islands) LEFT(desc.workers) LEFT(desc.measure) LEFT(desc.watchdog) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
     LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)           \
@@ -80,7 +80,7 @@
     LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count) LEFT(solver.since) LEFT(solver.follows_impacts)   \
     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
-    LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.hard_cluster) LEFT(solver.hard_count) LEFT(solver.hard_islands) TALLY(solver.hard_pressed) TALLY(solver.hard_before) LEFT(solver.hard_contacts) LEFT(solver.hard_leaders) LEFT(solver.hard_tallies) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.colors_used)                 \
+    LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.fine_cluster) LEFT(solver.fine_islands) TALLY(solver.fine_before) LEFT(solver.hard_cluster) LEFT(solver.hard_count) LEFT(solver.hard_islands) TALLY(solver.hard_pressed) TALLY(solver.hard_before) LEFT(solver.hard_contacts) LEFT(solver.apart_leaders) LEFT(solver.apart_tallies) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.colors_used)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count) LEFT(solver.chain_count) TALLY(solver.cut_count) LEFT(solver.spare_impacts)
 
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \

@@ -203,6 +203,7 @@ static const pl_manifold no_manifold __attribute__((
 
 pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare), PL_WIDE_NAME(pl_contact_prepare_extras),
     PL_WIDE_NAME(pl_contact_prepare_specials), PL_WIDE_NAME(pl_contact_prepare_bounces);
+pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare_fine), PL_WIDE_NAME(pl_contact_close_fine);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare_grips), PL_WIDE_NAME(pl_contact_store_grips);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_bounce), PL_WIDE_NAME(pl_contact_bounce_special);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_tally), PL_WIDE_NAME(pl_contact_store),

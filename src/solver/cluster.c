@@ -230,9 +230,11 @@ bool pl_solver_cluster(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
-    s->cluster_count -= s->hard_cluster != PL_NONE && s->cluster_count > 1; // of the step before
-    s->hard_cluster = PL_NONE;
-    s->hard_count = s->hard_islands = 0;
+    const uint32_t apart =
+        (s->fine_cluster != PL_NONE ? 1u : 0) + (s->hard_cluster != PL_NONE ? 1u : 0);
+    s->cluster_count = s->cluster_count > apart ? s->cluster_count - apart : s->cluster_count;
+    s->fine_cluster = s->hard_cluster = PL_NONE;
+    s->fine_islands = s->hard_count = s->hard_islands = 0;
     if (!is_divisible(world)) {
         s->cluster_count = 1;
         s->labelled = 0;

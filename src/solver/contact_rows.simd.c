@@ -189,6 +189,85 @@ void PL_WIDE_NAME(pl_contact_prepare_specials)(const pl_contact_call *call, uint
     }
 }
 
+//---- fine islands (apart.c): contacts of their own stiffness; impulses of pairs are those of the world's substep ----
+
+// 4 to the power of k / 13, and the last again.
+static const near_real stiffer[PL_STIFF_LEVELS] = {
+    (near_real)1,         (near_real)1.1125315, (near_real)1.2377263, (near_real)1.3770095,
+    (near_real)1.5319664, (near_real)1.7043608, (near_real)1.8961550, (near_real)2.1095322,
+    (near_real)2.3469209, (near_real)2.6110234, (near_real)2.9048457, (near_real)3.2317323,
+    (near_real)3.5954039, (near_real)4,         (near_real)4
+};
+
+// [-] by which a contact of a level is stiffer: of the first and the highest so much, of those between on the way from the one below.
+static near_real factor_of(uint32_t level, const pl_fine_clock *clock)
+{
+    const uint32_t k = level > 2 ? level - 2 : 0;
+    const bool rises = level > 1 && level < clock->top;
+    return stiffer[k] + (rises ? clock->phase * (stiffer[k + 1] - stiffer[k]) : 0);
+}
+
+// [1/s] of the contacts of a bundle.
+WIDE_INLINE vf hertz_of(const pl_contact_call *call, const uint32_t *lanes)
+{
+    vf hertz = splat(call->stiffest);
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        if (lanes[i] != PL_NONE) {
+            const pl_manifold *m = &call->manifolds[lanes[i]];
+            const uint32_t level = pl_fine_level(call->pairs[m->pair].flags, m, &call->clock);
+            hertz[i] *= factor_of(level, &call->clock);
+        }
+    }
+    return vmin(hertz, splat(call->most));
+}
+
+WIDE_INLINE void scale(bundle *c, extra *e, vf factor)
+{
+    for (int j = 0; j < 2; ++j) {
+        c->p[j].ln *= factor;
+        c->p[j].lt *= factor;
+    }
+    if (e != NULL) {
+        e->lr *= factor;
+    }
+}
+
+void PL_WIDE_NAME(pl_contact_prepare_fine)(const pl_contact_call *call, uint32_t first,
+                                           uint32_t count)
+{
+    bundle *bundles = call->bundles;
+    extra *extras = call->extras;
+    const vf h = splat(call->h), damped = splat(2 * call->damping);
+    for (uint32_t k = first; k < first + count; ++k) {
+        bundle *c = &bundles[k];
+        body a, b;
+        gather_body(&a, call, c->a);
+        gather_body(&b, call, c->b);
+        const vm fixed = (a.inv_mass == splat(0)) | (b.inv_mass == splat(0));
+        const vf omega = splat((near_real)6.283185307179586) *
+                         hertz_of(call, &call->lanes[(size_t)k * PL_WIDTH]) *
+                         sel(fixed, splat(STATIC_STIFFNESS), splat(1));
+        const vf a1 = damped + h * omega, give = splat(1) / (h * omega * a1);
+        c->bias_rate = omega / a1;
+        for (int j = 0; j < 2; ++j) {
+            c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
+        }
+        scale(c, extras != NULL ? &extras[k] : NULL, splat(1 / call->finer));
+    }
+}
+
+void PL_WIDE_NAME(pl_contact_close_fine)(const pl_contact_call *call, uint32_t first,
+                                         uint32_t count)
+{
+    bundle *bundles = call->bundles;
+    extra *extras = call->extras;
+    for (uint32_t k = first; k < first + count; ++k) {
+        scale(&bundles[k], extras != NULL ? &extras[k] : NULL, splat(call->finer));
+    }
+}
+
+//---- static and kinetic friction ---------------------------------------------------------------------
+
 void PL_WIDE_NAME(pl_contact_prepare_grips)(const pl_contact_call *call, uint32_t first,
                                             uint32_t count)
 {

@@ -467,9 +467,11 @@ bool pl_solver_open(plumb_world *world)
 static bool reserve_clusters(plumb_world *world)
 {
     pl_solver *s = &world->solver;
-    return pl_buffer_reserve(&world->memory, &s->clusters, s->cluster_count * sizeof(pl_cluster)) &&
+    // A small world has one, and may have islands apart at any time: it is not to allocate then.
+    const size_t count = s->cluster_count > 3 ? s->cluster_count : 3;
+    return pl_buffer_reserve(&world->memory, &s->clusters, count * sizeof(pl_cluster)) &&
            pl_buffer_reserve(&world->memory, &s->cursors,
-                             s->cluster_count * PL_COLOR_SLOTS * sizeof(uint32_t));
+                             count * PL_COLOR_SLOTS * sizeof(uint32_t));
 }
 
 bool pl_solver_graph(plumb_world *world, real dt)
@@ -496,14 +498,14 @@ bool pl_solver_graph(plumb_world *world, real dt)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies,       &s->motions,     &s->rows,        &s->slots,
-                             &s->masks,        &s->colors,      &s->lanes,       &s->bundles,
-                             &s->impacts,      &s->classic,     &s->residuals,   &s->struck,
-                             &s->extras,       &s->specials,    &s->impact_heap, &s->impact_heads,
-                             &s->bounces,      &s->clusters,    &s->labels,      &s->islands,
-                             &s->homes,        &s->leaders,     &s->cursors,     &s->rubbed,
-                             &s->turnings,     &s->kicked,      &s->grips,       &s->hard_contacts,
-                             &s->hard_leaders, &s->hard_tallies };
+    pl_buffer *buffers[] = {
+        &s->bodies,       &s->motions, &s->rows,          &s->slots,         &s->masks,
+        &s->colors,       &s->lanes,   &s->bundles,       &s->impacts,       &s->classic,
+        &s->residuals,    &s->struck,  &s->extras,        &s->specials,      &s->impact_heap,
+        &s->impact_heads, &s->bounces, &s->clusters,      &s->labels,        &s->islands,
+        &s->homes,        &s->leaders, &s->cursors,       &s->rubbed,        &s->turnings,
+        &s->kicked,       &s->grips,   &s->hard_contacts, &s->apart_leaders, &s->apart_tallies
+    };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

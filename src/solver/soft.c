@@ -139,6 +139,8 @@ void pl_soft_open(plumb_world *world, pl_solving_step *out)
     out->call.struck = world->solver.follows_impacts ? s->struck.data : NULL;
     out->call.bounce_count = &s->bounce_count;
     out->call.hertz = asked > 0 && asked < stiffest ? asked : stiffest;
+    out->call.stiffest = stiffest;
+    out->call.most = asked > 0 ? asked : NEAR_MAX;
     out->call.damping = (near_real)world->desc.contact_damping;
     out->call.push_speed = (near_real)world->desc.push_speed;
     out->surface = special                      ? PL_SPECIAL
@@ -161,6 +163,9 @@ void pl_soft_prepare(pl_substep *s)
     }
     if (s->solving->call.specials != NULL) {
         each(s, kernels->prepare_specials);
+    }
+    if (s->solving->fine) {
+        each(s, kernels->prepare_fine);
     }
     if (s->solving->call.grips != NULL) {
         each(s, kernels->prepare_grips);
@@ -248,6 +253,9 @@ void pl_soft_sum(pl_substep *s)
 
 void pl_soft_store(pl_substep *s)
 {
+    if (s->solving->fine) {
+        each(s, s->solving->step->kernels->close_fine);
+    }
     each(s, s->solving->step->kernels->store);
     if (s->solving->call.extras != NULL) {
         each(s, s->solving->step->kernels->store_extras);

@@ -83,6 +83,13 @@ static inline void pl_classic_strike(pl_classic_contact *m, near_real speed, nea
 // island asks for would change the bits of the rest.
 enum { PL_ACTIVE, PL_ELASTIC };
 
+// How stiffness rises in this step, in levels of PL_PAIR_STIFF_MASK (apart.c).
+typedef struct pl_fine_clock {
+    uint32_t rise;   // by so many
+    uint32_t top;    // up to this one
+    near_real phase; // [-] 0 to 1, of the way to the next
+} pl_fine_clock;
+
 // Numbers of a contact sweep; see contact.simd.c for the formulas.
 typedef struct pl_contact_call {
     pl_solver_body *bodies;
@@ -106,11 +113,14 @@ typedef struct pl_contact_call {
     const uint16_t *flags; // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;
-    near_real h, inv_h;          // [s] substep
-    near_real inv_dt;            // [1/s] of the step
-    near_real since;             // [s] from the start of the step to that of the substep
-    near_real hertz, damping;    // [1/s], [-] of soft contacts
-    near_real push_speed;        // [m/s]
+    near_real h, inv_h;       // [s] substep
+    near_real inv_dt;         // [1/s] of the step
+    near_real since;          // [s] from the start of the step to that of the substep
+    near_real hertz, damping; // [1/s], [-] of soft contacts
+    near_real push_speed;     // [m/s]
+    near_real finer;          // substeps in place of one, in fine islands; else 1
+    near_real stiffest, most; // [1/s] of their contacts: of level 0; that is asked for
+    pl_fine_clock clock;
     near_real unloaded;          // [N s] a point that bears no more and pushes has been struck
     near_real restitution_speed; // [m/s] nothing slower bounces
     near_real *struck;           // [s] a slot, for impacts that are events; NULL: there are none
@@ -142,6 +152,9 @@ typedef enum pl_motion_variant {
     PL_MOTION_VARIANTS
 } pl_motion_variant;
 
+// Substeps that take the place of one in fine islands (apart.c).
+#define PL_FINER 4
+
 // One set a width.
 typedef struct pl_contact_kernels {
     int width;
@@ -149,6 +162,8 @@ typedef struct pl_contact_kernels {
     size_t separation_offset[2]; // of the lanes' separations and impulses in a bundle
     size_t impulse_offset[2];
     pl_contact_kernel *prepare;
+    pl_contact_kernel *prepare_fine,
+        *close_fine; // of fine islands: after prepare_specials; before store
     pl_contact_kernel *warm_start[PL_SURFACE_VARIANTS][PL_MOTION_VARIANTS];
     pl_contact_kernel *solve[PL_SURFACE_VARIANTS][PL_MOTION_VARIANTS];
     pl_contact_kernel *relax[PL_SURFACE_VARIANTS][PL_MOTION_VARIANTS];
@@ -193,6 +208,29 @@ bool pl_solver_open(plumb_world *world);
 bool pl_solver_graph(plumb_world *world, plumb_real dt);
 // Which bodies are solved together (cluster.c). False when out of memory.
 bool pl_solver_cluster(plumb_world *world);
+// Which islands are solved apart, exactly or in finer substeps (apart.c). False when out of memory. Then, behind the substeps, how
+// stiff contacts of the latter have become.
+bool pl_apart_find(plumb_world *world);
+void pl_fine_note(plumb_world *world, real dt);
+// Substeps of a fine island in place of one; of the last step, 0: no island was fine.
+int pl_fine_times(const plumb_world *world);
+uint32_t pl_fine_substeps(const plumb_world *world);
+pl_fine_clock pl_fine_clock_of(const plumb_world *world, real dt);
+// The stiffest level there, and that of a contact in this step: one that bore nothing in the last step has nothing stored.
+static inline uint32_t pl_fine_top(int times)
+{
+    return times > 2 ? PL_STIFF_LEVELS : times > 1 ? PL_STIFF_LEVELS / 2 + 1 : 1;
+}
+
+static inline uint32_t pl_fine_level(uint32_t pair_flags, const pl_manifold *m,
+                                     const pl_fine_clock *clock)
+{
+    const uint32_t level = (pair_flags & PL_PAIR_STIFF_MASK) >> PL_PAIR_STIFF_SHIFT;
+    const bool fresh = level == 0 && m->point[0].normal == 0 && m->point[1].normal == 0;
+    const uint32_t now = level + clock->rise > 1 ? level + clock->rise : 1;
+    return now > clock->top || fresh ? clock->top : now;
+}
+
 // Whether the impulses of contacts are added up over the step.
 bool pl_solver_tallies(const plumb_world *world);
 // Whether locked axes, adhesion, kinetic friction or bodies whose time stands still are there to be solved.

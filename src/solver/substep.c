@@ -52,18 +52,29 @@ static void run_stage(pl_substep *s, pl_substep_stage stage, int times)
     }
 }
 
-static void run_substep(pl_substep *s)
+// Sweeps that relax. In a fine island many, where a substep of the world ends: in each substep they take as much again as all else.
+static int relaxations_of(const pl_substep *s)
 {
     const plumb_world_desc *d = &s->world->desc;
+    const int times = s->count / d->substeps;
+    if (s->solving->exact || d->solver == PLUMB_SOLVER_EXACT) {
+        return 1;
+    }
+    if (d->solver != PLUMB_SOLVER_SOFT) {
+        return PL_CLASSIC_CORRECTIONS;
+    }
+    const bool ends = s->solving->fine && (s->number + 1) % times == 0;
+    return d->iterations + (ends ? PL_FINE_RELAXATIONS : 0);
+}
+
+static void run_substep(pl_substep *s)
+{
+    const bool exact = s->solving->exact || s->world->desc.solver == PLUMB_SOLVER_EXACT;
     run_stage(s, PL_SUBSTEP_FORCES, 1);
     run_stage(s, PL_SUBSTEP_VELOCITIES, 1);
-    const bool exact = s->solving->exact || d->solver == PLUMB_SOLVER_EXACT;
-    run_stage(s, PL_SUBSTEP_CONSTRAINTS, exact ? 1 : d->iterations);
+    run_stage(s, PL_SUBSTEP_CONSTRAINTS, exact ? 1 : s->world->desc.iterations);
     run_stage(s, PL_SUBSTEP_POSITIONS, 1);
-    run_stage(s, PL_SUBSTEP_RELAX,
-              exact                            ? 1
-              : d->solver == PLUMB_SOLVER_SOFT ? d->iterations
-                                               : PL_CLASSIC_CORRECTIONS);
+    run_stage(s, PL_SUBSTEP_RELAX, relaxations_of(s));
     run_stage(s, PL_SUBSTEP_SUMS, 1);
 }
 
@@ -99,22 +110,34 @@ static pl_contact_call call_of(const pl_solving_step *step, const pl_cluster *cl
 static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
 {
     const pl_cluster *cluster = &pl_clusters(&step->world->solver)[i];
+    const bool fine = i == step->world->solver.fine_cluster;
+    const int times = fine ? pl_fine_times(step->world) : 1;
+    const near_real h = step->call.h / (near_real)times;
     const pl_joint_context joints = pl_joint_context_of(
-        step->world, i, tasks, thread, (real)step->call.h, (real)step->soft_substep);
+        step->world, i, tasks, thread, (real)h, (real)(step->soft_substep / (near_real)times));
     pl_solving solving = { .step = step,
                            .call = call_of(step, cluster, thread),
                            .joints = &joints,
                            .any_joints = pl_joints_any(&joints),
                            .elastic = i == 0 && step->elastic,
-                           .exact = i == step->world->solver.hard_cluster };
+                           .exact = i == step->world->solver.hard_cluster,
+                           .fine = fine };
     pl_substep s = { .world = step->world,
                      .cluster = cluster,
                      .tasks = tasks,
                      .thread = thread,
-                     .h = step->call.h,
+                     .h = h,
+                     .count = step->world->desc.substeps * times,
                      .solving = &solving };
+    if (fine) {
+        solving.call.h = h;
+        solving.call.inv_h = 1 / h;
+        solving.call.push_speed *= PL_FINE_PUSH;
+        solving.call.finer = (near_real)times;
+        solving.call.clock = pl_fine_clock_of(step->world, step->dt);
+    }
     run_stage(&s, PL_SUBSTEP_PREPARE, 1);
-    for (int k = 0; k < step->world->desc.substeps; ++k) {
+    for (int k = 0; k < s.count; ++k) {
         s.number = k;
         s.first = k == 0;
         solving.call.since = (near_real)k * s.h;
@@ -172,6 +195,7 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
         .together = world->solver.follows_impacts || world->effects.any_alone,
         .soft_substep = pl_soft_substep(world, dt),
         .rows = rows,
+        .dt = dt,
     };
 }
 

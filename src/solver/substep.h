@@ -31,6 +31,7 @@ typedef struct pl_solving_step {
     pl_motion_variant motion;
     bool tallies, elastic;
     near_real soft_substep; // [s] see pl_soft_substep
+    real dt;                // [s]
     bool together; // something of cluster 0 is not to be shared out: it is solved by itself
     const struct pl_substep_rows *rows;
 } pl_solving_step;
@@ -43,6 +44,7 @@ typedef struct pl_solving {
     bool any_joints;
     bool elastic; // cluster 0 alone has impacts that are followed one by one
     bool exact;   // islands that sweeps cannot hold, in a world of the soft step
+    bool fine;    // islands that take finer substeps
 } pl_solving;
 
 // What the row that runs is for the cluster.
@@ -76,6 +78,9 @@ void pl_move_kinematic(struct pl_substep *s); // by their velocities (integrate.
 
 // Before all rows of the soft step: what kernels are called with, and which of them (soft.c).
 void pl_soft_open(plumb_world *world, pl_solving_step *out);
+// What fine islands (apart.c) have besides: sweeps that relax them where a substep of the world ends; the share of the push speed.
+#define PL_FINE_RELAXATIONS    5
+#define PL_FINE_PUSH           ((near_real)0.1)
 #define PL_CLASSIC_CORRECTIONS 3 // sweeps over positions, by the classic solver
 
 #endif

@@ -83,6 +83,14 @@ static void substeps(plumb_world *world, plumb_real dt, const char *name)
     }
 }
 
+static bool find_apart(plumb_world *world)
+{
+    if (!world->desc.no_exact_islands) {
+        pl_hard_look(world);
+    }
+    return pl_apart_find(world);
+}
+
 static void finish(plumb_world *world, plumb_real dt)
 {
     pl_solver_finish(world, dt);
@@ -119,13 +127,13 @@ TRY(pl_run_fluids, pl_fluids_find(world))
 TRY(pl_run_laws, pl_laws_find(world, dt))
 TRY(pl_run_called, pl_acting_call(world))
 TRY(pl_run_clusters, pl_solver_open(world))
-TRY(pl_run_hard_islands, pl_hard_find(world))
+TRY(pl_run_apart, find_apart(world))
 TRY(pl_run_graph, graph(world, dt))
 TRY(pl_run_immersion, pl_fluids_immerse(world))
 TRY(pl_run_engines, pl_engines_find(world, dt))
 TRY(pl_run_law_slots, pl_laws_take_slots(world))
 TRY(pl_run_acting, pl_acting_find(world, dt))
-RUN(pl_run_soft, substeps(world, dt, "soft step"); pl_hard_note(world))
+RUN(pl_run_soft, substeps(world, dt, "soft step"); pl_hard_note(world); pl_fine_note(world, dt))
 RUN(pl_run_classic, substeps(world, dt, "classic solver"))
 TRY(pl_run_elimination, pl_exact_plan(world))
 RUN(pl_run_exact, substeps(world, dt, "exact solver"); pl_exact_tell(world))

@@ -170,7 +170,7 @@ bool pl_want_exact(const plumb_world *world, const char **reason)
     return pl_want_solver(world, reason) && asks_for(world, PLUMB_SOLVER_EXACT, reason);
 }
 
-bool pl_want_hard_islands(const plumb_world *world, const char **reason)
+static bool wants_hard_islands(const plumb_world *world, const char **reason)
 {
     return pl_want_soft(world, reason) &&
            say(PL_HAS(EXACT) && !world->desc.no_exact_islands, reason,
@@ -178,9 +178,17 @@ bool pl_want_hard_islands(const plumb_world *world, const char **reason)
                "the world wants no island to be solved exactly");
 }
 
+bool pl_want_apart(const plumb_world *world, const char **reason)
+{
+    return wants_hard_islands(world, reason) ||
+           (pl_want_soft(world, reason) && say(!world->desc.no_fine_islands, reason,
+                                               "islands of a small world take finer substeps",
+                                               "the world wants no island to be solved apart"));
+}
+
 bool pl_want_direct(const plumb_world *world, const char **reason)
 {
-    return world->desc.solver == PLUMB_SOLVER_SOFT ? pl_want_hard_islands(world, reason)
+    return world->desc.solver == PLUMB_SOLVER_SOFT ? wants_hard_islands(world, reason)
                                                    : pl_want_exact(world, reason);
 }
 

@@ -27,7 +27,7 @@ struct pl_substep {
     pl_tasks *tasks;            // null: one thread
     uint32_t thread;            // whose room the cluster has
     near_real h;                // [s] length of the substep
-    int number;                 // of the substep
+    int number, count;          // of the substep, and how many the cluster takes
     bool first, first_sweep;    // substep; sweep of a stage
     const pl_substep_row *row;  // that runs
     struct pl_solving *solving; // what only the solver's own rows need (solver/substep.h)

@@ -84,7 +84,7 @@ static const struct reason {
     { "acting", NOBODY, BODIES },
     { "measure bodies", NOBODY, BODIES },
     { "clusters", NOBODY, BODIES },
-    { "hard islands", SOLID, CONTACTS },
+    { "islands apart", SOLID, CONTACTS },
     { "elimination", SOLID, CONTACTS },
     { "soft step", NOBODY, BODIES },
     { "classic solver", NOBODY, BODIES },

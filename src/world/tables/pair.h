@@ -38,8 +38,13 @@ typedef struct pl_pair {
 #define PL_PAIR_PRESSED     1048576u
 #define PL_PAIR_LARGE       2097152u
 #define PL_PAIR_EXACT       4194304u // it was solved exactly in the last step
+// How stiff its contact is in an island of finer substeps (solver/apart.c): 0 as the world's, else 1 to PL_STIFF_LEVELS.
+#define PL_PAIR_STIFF_SHIFT 23u
+#define PL_PAIR_STIFF_MASK  (15u << PL_PAIR_STIFF_SHIFT)
+#define PL_STIFF_LEVELS     15u
 #define PL_PAIR_LOADS                                                                              \
-    (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1 | PL_PAIR_PRESSED | PL_PAIR_LARGE | PL_PAIR_EXACT)
+    (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1 | PL_PAIR_PRESSED | PL_PAIR_LARGE | PL_PAIR_EXACT |       \
+     PL_PAIR_STIFF_MASK)
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
 // 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.

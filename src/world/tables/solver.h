@@ -74,15 +74,18 @@ typedef struct pl_solver {
     pl_buffer cursors; // uint32_t a cluster and colour: contacts, then the next lane
     uint32_t cluster_count, cluster_age; // steps since islands were looked for
     uint32_t island_count;
-    // Islands that sweeps cannot hold (hard.c), all of them one cluster, the last; PL_NONE: there are none.
-    uint32_t hard_cluster;
+    // Islands that are solved apart (apart.c), in finer substeps and exactly, all of a kind one cluster, behind the others; PL_NONE:
+    // there are none.
+    uint32_t fine_cluster, hard_cluster;
+    uint32_t fine_islands;
+    bool fine_before;          // some contact has a level of stiffness
     uint32_t hard_count;       // contacts of them, in `hard_contacts`
     uint32_t hard_islands;
     bool hard_pressed;         // some contact was PL_PAIR_PRESSED at the last look
     bool hard_before;          // some contact is PL_PAIR_EXACT
     pl_buffer hard_contacts;   // uint32_t: manifolds
-    pl_buffer hard_leaders;    // uint32_t a movable row, while they are looked for
-    pl_buffer hard_tallies;    // pl_hard_tally a movable row, likewise
+    pl_buffer apart_leaders;   // uint32_t a movable row, while they are looked for
+    pl_buffer apart_tallies;   // pl_apart_tally a movable row, likewise
     uint32_t labelled; // rows whose islands are kept; 0: none
     // bundles of the largest cluster; of each thread's room, if there are several
     uint32_t bundle_room;
