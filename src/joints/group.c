@@ -158,18 +158,24 @@ static bool reserve_lanes(plumb_world *world)
     pl_joint_plan *plan = &world->joints.plan;
     const size_t bundles = plan->bundle_count;
     const size_t lanes = bundles * (size_t)pl_joint_kernels_of(world)->width;
-    const uint32_t threads = pl_tasks_share_count(world->tasks, plan->group_count, 1);
     return pl_buffer_reserve(&world->memory, &plan->bundles, bundles * sizeof(pl_joint_bundle)) &&
            pl_buffer_reserve(&world->memory, &plan->lanes, lanes * sizeof(pl_joint_lane)) &&
-           pl_buffer_reserve(&world->memory, &plan->slots, lanes * 2 * sizeof(uint32_t)) &&
-           pl_buffer_reserve(&world->memory, &plan->records, plan->room * threads);
+           pl_buffer_reserve(&world->memory, &plan->slots, lanes * 2 * sizeof(uint32_t));
+}
+
+// Of as many threads as there are in this step.
+static bool reserve_records(plumb_world *world)
+{
+    pl_joint_plan *plan = &world->joints.plan;
+    const uint32_t threads = pl_tasks_share_count(world->tasks, plan->group_count, 1);
+    return pl_buffer_reserve(&world->memory, &plan->records, plan->room * threads);
 }
 
 bool pl_joints_group(plumb_world *world)
 {
     pl_joint_plan *plan = &world->joints.plan;
     if (find_clusters(world)) {
-        return true;
+        return reserve_records(world);
     }
     plan->group_count = world->solver.cluster_count;
     plan->exact_group = world->solver.hard_cluster;
@@ -178,7 +184,7 @@ bool pl_joints_group(plumb_world *world)
     }
     sort_by_cluster(world);
     divide_all(world);
-    if (!reserve_lanes(world)) {
+    if (!reserve_lanes(world) || !reserve_records(world)) {
         return false;
     }
     for (uint32_t g = 0; g < plan->group_count; ++g) {
