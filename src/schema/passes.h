@@ -148,7 +148,7 @@
     X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_soft_move, pl_classic_move, pl_move_bodies), ONCE,           \
       "solver bodies, accelerations, targets", "solver bodies, joints", ONE)                                                                          \
     X("follow moment",     POSITIONS,   IF(pl_want_moment),          SOFT(pl_soft_follow_moment),                            ONCE,           \
-      "solver bodies", "constraints", ONE)                                                                                                   \
+      "solver bodies", "solver bodies, constraints", ONE)                                                                                             \
     X("relax joints",      RELAX,       IF(pl_want_joints),          BOTH(pl_joints_row_relax, pl_joints_row_correct),       ONCE,           \
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("relax contacts",    RELAX,       IF(pl_want_collision),       BOTH(pl_soft_relax, pl_classic_correct),                ONCE,           \
