@@ -171,12 +171,9 @@ static bool reserve_records(plumb_world *world)
     return pl_buffer_reserve(&world->memory, &plan->records, plan->room * threads);
 }
 
-bool pl_joints_group(plumb_world *world)
+static bool regroup(plumb_world *world)
 {
     pl_joint_plan *plan = &world->joints.plan;
-    if (find_clusters(world)) {
-        return reserve_records(world);
-    }
     plan->group_count = world->solver.cluster_count;
     plan->exact_group = world->solver.hard_cluster;
     if (!reserve_groups(world)) {
@@ -191,4 +188,16 @@ bool pl_joints_group(plumb_world *world)
         place_lanes(world, &pl_joint_groups(&world->joints)[g]);
     }
     return !pl_joints_direct(world) || pl_direct_plan(world);
+}
+
+bool pl_joints_group(plumb_world *world)
+{
+    if (find_clusters(world)) {
+        return reserve_records(world);
+    }
+    const bool done = regroup(world);
+    if (!done) { // the step is taken again: they are not as they were
+        world->joints.plan.group_count = 0;
+    }
+    return done;
 }
