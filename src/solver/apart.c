@@ -3,9 +3,9 @@
 // Hard are small islands that sweeps cannot hold, as seeds among their contacts tell (exact/hard.c).
 //
 // Fine are those of small worlds, of SMALL contacts and joints at the most: there a substep costs nothing to speak of, and
-// 16 of them, stiffer contacts and two more relaxing sweeps hold what four do not: books, cards, arches, what was pushed together
-// (DECISIONS.md). So that a game which asks for nothing gets that, each substep of an island in which two dynamic bodies touch
-// is PL_FINER shorter ones, of 16 a step at the most, whatever else there is: a world that becomes large is swept as it says.
+// 16 of them, stiffer contacts and more relaxing sweeps hold what four do not: books, cards, arches, what was pushed together
+// (DECISIONS.md). Where the world asks for it (fine_islands), each substep of an island in which two dynamic bodies touch
+// is PL_FINER shorter ones, of 16 a step at the most; a world that becomes large is swept as it says.
 // Not what is followed as events, or acted on alone (cluster 0), nor while systems of the user's run in substeps: these count them.
 // Contacts become stiffer in their own time, as where steps become shorter (soft.c): the pair keeps a level, which a clock of the
 // world's raises, and between two levels goes by its hand. One that bore nothing has nothing stored, and is as stiff at once.
@@ -85,7 +85,7 @@ uint32_t pl_fine_substeps(const plumb_world *world)
 
 static bool may_be_fine(const plumb_world *world, uint32_t constraints)
 {
-    return !world->desc.no_fine_islands && constraints <= SMALL && world->systems.in_substeps == 0;
+    return world->desc.fine_islands && constraints <= SMALL && world->systems.in_substeps == 0;
 }
 
 //---- islands -------------------------------------------------------------------------------------------
