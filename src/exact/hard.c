@@ -19,7 +19,6 @@
 
 #include <math.h>
 
-#define MANY   96   // contacts of a body whose island is not small
 #define DEEP   2e-2 // of the way from the contact to the centre of mass
 #define UNEVEN 10.0
 #define BORNE  0.25
@@ -138,7 +137,7 @@ static void look_at_fresh(const look_at *s)
         const uint32_t heavier = a_heavier ? pair->body_a : pair->body_b;
         if (asked == PL_NONE) {
             asked = heavier;
-            large = contacts_of(s, heavier) > MANY;
+            large = contacts_of(s, heavier) > PL_HARD_MOST;
         }
         if (heavier == asked && large) {
             pair->flags |= PL_PAIR_LARGE;

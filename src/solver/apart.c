@@ -11,7 +11,7 @@
 // world's raises, and between two levels goes by its hand. One that bore nothing has nothing stored, and is as stiff at once.
 //
 // An island is all that hangs together by contacts and joints, through kinematic bodies too, as in cluster.c, but found anew
-// in each step: it depends on the past by a few flags a pair. Hard ones have MOST contacts and joints at the most, none of
+// in each step: it depends on the past by a few flags a pair. Hard ones have PL_HARD_MOST contacts and joints at the most, none of
 // which bounces or is driven.
 //
 // Reads: manifolds, ends, joints, flags of pairs. Writes: labels of rows, hard contacts, flags of pairs, impulses of manifolds. Order:
@@ -27,10 +27,8 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST  96  // contacts and joints of a hard island
-#define SMALL 512 // of a world with fine islands
-
-#define FINEST 16
+#define SMALL  512 // contacts and joints of a world with fine islands
+#define FINEST 16  // substeps of a fine island
 
 // [s] in which stiffness rises by one of PL_STIFF_LEVELS: by e in half a second, as in soft.c.
 #define LEVEL_TIME 0.0533190138892265 // 0.5 ln 4 / 13
@@ -149,7 +147,7 @@ static void tally_bound(const search *s)
             t->barred = t->bound = true;
         }
     }
-    for (uint32_t row = 0; s->world->solver.follows_impacts && row < s->movable; ++row) {
+    for (uint32_t row = 0; s->fine && s->world->solver.follows_impacts && row < s->movable; ++row) {
         if (marks[row] == PL_ELASTIC) {
             s->tallies[pl_union_leader(s->leaders, row)].bound = true;
         }
@@ -170,7 +168,7 @@ static void tally(const search *s)
 static bool is_hard(const search *s, uint32_t leader)
 {
     const pl_apart_tally *t = &s->tallies[leader];
-    return t->seeded && !t->barred && t->contacts <= MOST;
+    return t->seeded && !t->barred && t->contacts <= PL_HARD_MOST;
 }
 
 static bool is_fine(const search *s, uint32_t leader)
@@ -273,7 +271,9 @@ static bool find(plumb_world *world)
     }
     tally(&s);
     pl_solver *solver = &world->solver;
-    solver->fine_cluster = label(&s, is_fine, &solver->fine_islands);
+    if (s.fine) {
+        solver->fine_cluster = label(&s, is_fine, &solver->fine_islands);
+    }
     if (seeded) {
         solver->hard_cluster = label(&s, is_hard, &solver->hard_islands);
         list_hard_contacts(&s);

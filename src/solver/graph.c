@@ -467,8 +467,9 @@ bool pl_solver_open(plumb_world *world)
 static bool reserve_clusters(plumb_world *world)
 {
     pl_solver *s = &world->solver;
-    // A small world has one, and may have islands apart at any time: it is not to allocate then.
-    const size_t count = s->cluster_count > 3 ? s->cluster_count : 3;
+    // A small world has one, and may have fine and hard islands at any time: it is not to allocate then.
+    const uint32_t least = world->desc.fine_islands ? 3 : 1;
+    const size_t count = s->cluster_count > least ? s->cluster_count : least;
     return pl_buffer_reserve(&world->memory, &s->clusters, count * sizeof(pl_cluster)) &&
            pl_buffer_reserve(&world->memory, &s->cursors,
                              count * PL_COLOR_SLOTS * sizeof(uint32_t));

@@ -118,7 +118,7 @@ typedef struct pl_contact_call {
     near_real since;          // [s] from the start of the step to that of the substep
     near_real hertz, damping; // [1/s], [-] of soft contacts
     near_real push_speed;     // [m/s]
-    near_real finer;          // substeps in place of one, in fine islands; else 1
+    near_real finer;          // substeps in place of one; in fine islands alone
     near_real stiffest, most; // [1/s] of their contacts: of level 0; that is asked for
     pl_fine_clock clock;
     near_real unloaded;          // [N s] a point that bears no more and pushes has been struck
@@ -152,6 +152,8 @@ typedef enum pl_motion_variant {
     PL_MOTION_VARIANTS
 } pl_motion_variant;
 
+// Contacts and joints of a hard island, at the most (apart.c).
+#define PL_HARD_MOST 96
 // Substeps that take the place of one in fine islands (apart.c).
 #define PL_FINER 4
 
