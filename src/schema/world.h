@@ -49,7 +49,7 @@
       "the world is so long along y and closes in on itself")                                       \
     R(X, HERE, BOOL, no_exact_islands, NOT(exact_islands), "1", CHOICES(1), 0, NO_ZERO,             \
       "whether the soft step solves small islands exactly that sweeps cannot hold")                 \
-    R(X, HERE, BOOL, fine_islands, SAID(fine_islands), "1", CHOICES(1), 0, NO_ZERO,               \
+    R(X, HERE, BOOL, no_fine_islands, NOT(fine_islands), "1", CHOICES(1), 0, NO_ZERO,               \
       "whether in a small world bodies that touch one another take finer substeps")                 \
     R(X, HERE, INT, simd_width, SAID(simd_width), "1", FROM(0, 16), 0, NO_ZERO,                     \
       "lanes of the contact kernels: 4, 8, 16; 0: the best measured; every width gives the same bits") \

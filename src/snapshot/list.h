@@ -33,7 +33,7 @@
 // clang-format off
 #define PL_STATE_DESC(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     PL_WORLD_ROWS(PL_ROW_STATE, VALUE)                                                            \
-    TALLY(desc.no_exact_islands) TALLY(desc.fine_islands) LEFT(desc.workers) LEFT(desc.measure) LEFT(desc.watchdog) LEFT(desc.tasks)                                                            \
+    TALLY(desc.no_exact_islands) TALLY(desc.no_fine_islands) LEFT(desc.workers) LEFT(desc.measure) LEFT(desc.watchdog) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
     LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)           \

@@ -3,12 +3,13 @@
 // Hard are small islands that sweeps cannot hold, as seeds among their contacts tell (exact/hard.c).
 //
 // Fine are those of small worlds, of SMALL contacts and joints at the most: there a substep costs nothing to speak of, and
-// 16 of them, stiffer contacts and more relaxing sweeps hold what four do not: books, cards, arches, what was pushed together
-// (DECISIONS.md). Where the world asks for it (fine_islands), each substep of an island in which two dynamic bodies touch
-// is PL_FINER shorter ones, of 16 a step at the most; a world that becomes large is swept as it says.
+// 16 of them, stiffer contacts and five more relaxing sweeps hold what four do not: books, cards, arches, what was pushed together
+// (DECISIONS.md). So that a game which asks for nothing gets that, each substep of an island in which two dynamic bodies touch
+// is PL_FINER shorter ones, of 16 a step at the most, whatever else there is: a world that becomes large is swept as it says.
 // Not what is followed as events, or acted on alone (cluster 0), nor while systems of the user's run in substeps: these count them.
 // Contacts become stiffer in their own time, as where steps become shorter (soft.c): the pair keeps a level, which a clock of the
 // world's raises, and between two levels goes by its hand. One that bore nothing has nothing stored, and is as stiff at once.
+// Joints stay as stiff as the world's: what touches and lets go again each few steps would wind a bridge of joints up (DECISIONS.md).
 //
 // An island is all that hangs together by contacts and joints, through kinematic bodies too, as in cluster.c, but found anew
 // in each step: it depends on the past by a few flags a pair. Hard ones have PL_HARD_MOST contacts and joints at the most, none of
@@ -83,7 +84,7 @@ uint32_t pl_fine_substeps(const plumb_world *world)
 
 static bool may_be_fine(const plumb_world *world, uint32_t constraints)
 {
-    return world->desc.fine_islands && constraints <= SMALL && world->systems.in_substeps == 0;
+    return !world->desc.no_fine_islands && constraints <= SMALL && world->systems.in_substeps == 0;
 }
 
 //---- islands -------------------------------------------------------------------------------------------
@@ -103,7 +104,7 @@ static void join(const search *s, const pl_ends *ends, uint32_t count)
     }
 }
 
-// Driven by a bounded force. Where contacts are rigid, things that jam stop it: the rod of samples/spinner.lua at 1.9 rad/s of 4.
+// Driven by a bounded force: what it moves is never at rest for long, and the car of car_bridge.lua throws an exact bridge about.
 static bool is_driven(const plumb_joint_desc *d)
 {
     return d->enable_motor || d->kind == PLUMB_MOUSE || d->kind == PLUMB_MOTOR ||

@@ -468,7 +468,7 @@ static bool reserve_clusters(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     // A small world has one, and may have fine and hard islands at any time: it is not to allocate then.
-    const uint32_t least = world->desc.fine_islands ? 3 : 1;
+    const uint32_t least = world->desc.no_fine_islands ? 1 : 3;
     const size_t count = s->cluster_count > least ? s->cluster_count : least;
     return pl_buffer_reserve(&world->memory, &s->clusters, count * sizeof(pl_cluster)) &&
            pl_buffer_reserve(&world->memory, &s->cursors,

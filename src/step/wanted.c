@@ -181,9 +181,9 @@ static bool wants_hard_islands(const plumb_world *world, const char **reason)
 bool pl_want_apart(const plumb_world *world, const char **reason)
 {
     return wants_hard_islands(world, reason) ||
-           (pl_want_soft(world, reason) &&
-            say(world->desc.fine_islands, reason, "islands of a small world take finer substeps",
-                "the world wants no island to be solved apart"));
+           (pl_want_soft(world, reason) && say(!world->desc.no_fine_islands, reason,
+                                               "islands of a small world take finer substeps",
+                                               "the world wants no island to be solved apart"));
 }
 
 bool pl_want_direct(const plumb_world *world, const char **reason)

@@ -91,6 +91,7 @@ static bool step_from(frozen *f, plumb_solver solver, int substeps, int iteratio
     f->world->desc.solver = solver;
     f->world->desc.substeps = substeps;
     f->world->desc.iterations = iterations;
+    f->world->desc.no_fine_islands = true; // as many sweeps as are said
     f->world->schedule_dirty = true;
     const bool done = plumb_world_step(f->world, (plumb_real)f->dt) == PLUMB_OK;
     look_at(f, out);

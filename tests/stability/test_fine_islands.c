@@ -32,7 +32,7 @@ static uint32_t fine_of(const plumb_world_desc *desc, double restitution, int st
 static void which_islands_are_fine(void **state)
 {
     (void)state;
-    const plumb_world_desc plain = { .no_sleep = true, .fine_islands = true };
+    const plumb_world_desc plain = { .no_sleep = true };
     assert_int_equal(fine_of(&plain, 0, 3, 1), 0); // they touch the ground alone
     assert_int_equal(fine_of(&plain, 0, 1, 2), 1);
     assert_int_equal(fine_of(&plain, 0, 20, 4), 20); // 80 contacts
@@ -40,25 +40,14 @@ static void which_islands_are_fine(void **state)
     assert_int_equal(fine_of(&plain, 0, 60, 10), 0); // the world is not small
     assert_int_equal(fine_of(&plain, 0.1, 1, 2), 1);
     assert_int_equal(fine_of(&plain, 0.5, 1, 2), 0); // impacts are events
-    assert_int_equal(fine_of(&(plumb_world_desc){ .no_sleep = true }, 0, 1, 2), 0);
-    assert_int_equal(fine_of(&(plumb_world_desc){ .no_sleep = true,
-                                                  .fine_islands = true,
-                                                  .solver = PLUMB_SOLVER_PGS },
-                             0, 1, 2),
-                     0);
-    assert_int_equal(fine_of(&(plumb_world_desc){ .no_sleep = true,
-                                                  .fine_islands = true,
-                                                  .solver = PLUMB_SOLVER_EXACT },
-                             0, 1, 2),
-                     0);
     assert_int_equal(
-        fine_of(&(plumb_world_desc){ .no_sleep = true, .fine_islands = true, .substeps = 1 }, 0, 1,
-                2),
-        1);
+        fine_of(&(plumb_world_desc){ .no_sleep = true, .no_fine_islands = true }, 0, 1, 2), 0);
     assert_int_equal(
-        fine_of(&(plumb_world_desc){ .no_sleep = true, .fine_islands = true, .substeps = 32 }, 0, 1,
-                2),
-        1);
+        fine_of(&(plumb_world_desc){ .no_sleep = true, .solver = PLUMB_SOLVER_PGS }, 0, 1, 2), 0);
+    assert_int_equal(
+        fine_of(&(plumb_world_desc){ .no_sleep = true, .solver = PLUMB_SOLVER_EXACT }, 0, 1, 2), 0);
+    assert_int_equal(fine_of(&(plumb_world_desc){ .no_sleep = true, .substeps = 1 }, 0, 1, 2), 1);
+    assert_int_equal(fine_of(&(plumb_world_desc){ .no_sleep = true, .substeps = 32 }, 0, 1, 2), 1);
 }
 
 static void count_call(const plumb_system_call *call)
@@ -71,7 +60,7 @@ static void systems_of_substeps_count_them(void **state)
 {
     (void)state;
     int calls = 0;
-    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .fine_islands = true });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     plumb_material m = sim_material(w, 0.6, 0);
     sim_floor(w, m);
     sim_crate(w, 0, 0.5, 0.5, 0.5, m);
@@ -106,7 +95,7 @@ static void nothing_hops_where_islands_change(void **state)
     (void)state;
     for (uint32_t seed = 1; seed <= 3; ++seed) {
         uint32_t draw = seed;
-        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .fine_islands = true });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
         plumb_material m = sim_material(w, 0.6, 0);
         plumb_body stack[HEIGHT], crowd[CROWD];
         add_stack(w, m, stack);
@@ -147,8 +136,7 @@ static void nothing_hops_where_islands_change(void **state)
 static void forces_are_weights(void **state)
 {
     (void)state;
-    plumb_world *w = sim_world(
-        &(plumb_world_desc){ .no_sleep = true, .contact_impulses = true, .fine_islands = true });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .contact_impulses = true });
     plumb_material m = sim_material(w, 0.6, 0);
     plumb_body stack[HEIGHT];
     plumb_body below = add_stack(w, m, stack);
@@ -167,7 +155,7 @@ static void forces_are_weights(void **state)
 static void damping_is_what_it_says(void **state)
 {
     (void)state;
-    plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .fine_islands = true });
+    plumb_world *w = sim_space();
     plumb_material m = sim_material(w, 0, 0);
     plumb_body pair[2] = { sim_ball(w, 0, 0, 0.5, m), sim_ball(w, 0, 1, 0.5, m) };
     for (int i = 0; i < 2; ++i) {
@@ -188,8 +176,7 @@ static void books_stand(void **state)
 {
     (void)state;
     for (int off = 0; off < 2; ++off) {
-        plumb_world *w =
-            sim_world(&(plumb_world_desc){ .no_sleep = true, .fine_islands = off == 0 });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .no_fine_islands = off });
         plumb_material m = sim_material(w, 0.6, 0);
         plumb_body top = sim_body(w, PLUMB_STATIC, 0, -0.5, 0);
         sim_add_box(w, top, 1, 0.5, m);

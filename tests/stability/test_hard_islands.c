@@ -24,7 +24,8 @@ static plumb_material heavy_material(plumb_world *w, double density)
 // [m] by which a box sinks into a lighter one that bears it, after two seconds; how many islands were exact.
 static double sunk(double ratio, bool off, uint32_t *exact)
 {
-    plumb_world *w = sim_world(&(plumb_world_desc){ .no_exact_islands = off });
+    plumb_world *w =
+        sim_world(&(plumb_world_desc){ .no_exact_islands = off, .no_fine_islands = off });
     plumb_material wood = sim_material(w, 0.6, 0);
     sim_floor(w, wood);
     sim_crate(w, 0, 0.5, 0.5, 0.5, wood);

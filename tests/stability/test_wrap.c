@@ -322,7 +322,7 @@ static void stack_across_the_edge(void **state)
 static void heap_across_the_edge(void **state)
 {
     (void)state;
-    across(make_heap, 50, 1e-4);
+    across(make_heap, 45, 1e-4);
 }
 
 static void chain_across_the_edge(void **state)

@@ -41,7 +41,8 @@ static void add_plank(plumb_world *w, plumb_material low)
 static plumb_world *make_heap(int width, double belt, bool locked)
 {
     plumb_world *w = NULL;
-    const plumb_world_desc desc = { .simd_width = width,
+    const plumb_world_desc desc = { .no_fine_islands = true, // their lanes are not the world's
+                                    .simd_width = width,
                                     .no_sleep = true,
                                     .contact_impulses = true };
     assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);

@@ -110,7 +110,9 @@ static int run(uint32_t worlds, int steps, int workers, long crates, plumb_real 
                uint32_t *ended)
 {
     plumb_batch *batch;
-    const plumb_batch_desc desc = { .count = worlds,
+    const plumb_world_desc world = { .no_fine_islands = true }; // steps a second are what is wanted
+    const plumb_batch_desc desc = { .world = &world,
+                                    .count = worlds,
                                     .workers = workers,
                                     .build = build,
                                     .randomise = randomise,

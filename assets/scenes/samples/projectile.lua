@@ -4,15 +4,15 @@ scene { title = "Bursting shot", duration = 5 }
 camera { fit = {{-10, -1}, {14, 7}}, at = 0.55, trail = 0.4 }
 body { name = "ground", type = "static", box { 80, 1 }, at = {0, -0.5} }
 for i = 1, 8 do
-    body { name = "near" .. i, box { 0.5, 0.5 }, at = {2, 0.5 * i - 0.25}, density = 5, color = 1 }
-    body { name = "far" .. i, box { 0.5, 0.5 }, at = {11, 0.5 * i - 0.25}, density = 5, color = 2 }
+    body { name = "near" .. i, box { 0.5, 0.5 }, at = {2, 0.5 * i - 0.25}, density = 20, color = 1 }
+    body { name = "far" .. i, box { 0.5, 0.5 }, at = {11, 0.5 * i - 0.25}, density = 20, color = 2 }
 end
 local where
 local v, g = {24, 4}, 9.81
 body { name = "shot", circle { 0.15 }, at = {-9, 2}, velocity = v, density = 20, color = "#d64545" }
 on_contact { a = "shot", function(shot, it, c)
     where = { c.x, c.y, time(), it:name() }
-    blast { at = {c.x, c.y}, radius = 2, impulse = 6, falloff = 1 }
+    blast { at = {c.x, c.y}, radius = 2, impulse = 20, falloff = 1 }
     shot:destroy()
 end }
 -- It flies (1.75 - 0.15 + 9) m to the wall: at y0 + vy t - g t^2 / 2.
