@@ -273,7 +273,7 @@ static void lose_pair(plumb_world *world, const pl_pair_listener *listener, cons
 {
     const pl_pieces *pieces = &world->pieces;
     const uint32_t ends[2] = { pair->a, pair->b };
-    for (int i = 0; i < 2 && pair->manifold != PL_NONE; ++i) {
+    for (int i = 0; i < 2 && (pair->flags & PL_PAIR_TOUCHING) != 0; ++i) {
         if (pieces->kind[ends[i]] != PL_PIECE_FREE) {
             world->bodies.rest_time[pieces->body[ends[i]]] = PL_NOT_RESTING;
         }
