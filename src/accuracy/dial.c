@@ -157,7 +157,7 @@ static double swing_rate(const plumb_world *world, double now)
 
 static bool bears(const plumb_world *world, const pl_manifold *m)
 {
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    const pl_pair *pair = pl_pair_of(world, m);
     return (pair->normal[0] > 0 || pair->normal[1] > 0) && !pl_bounces(m);
 }
 

@@ -79,7 +79,7 @@ static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pai
 
 static bool was_hit(const plumb_world *world, const pl_manifold *m)
 {
-    return (pl_pairs(&world->broad.pairs)[m->pair].flags & PL_PAIR_HIT) != 0;
+    return (pl_pair_of(world, m)->flags & PL_PAIR_HIT) != 0;
 }
 
 // Whether a body of a manifold was struck elsewhere, too, in the step.

@@ -190,7 +190,7 @@ void pl_damping_row(pl_substep *s)
                   .bodies = (const pl_near_quad *)(const void *)pl_solver_bodies(&world->solver),
                   .motions = (pl_near_quad *)(void *)pl_solver_motions(&world->solver) };
     p.factors = e->factors.data;
-    p.finer = s->count / world->desc.substeps;
+    p.finer = s->finer;
     p.h = (double)s->h * p.finer;
     // Where nothing else acts in the substeps, no row has reset them.
     p.from = e->resets ? p.motions : e->bases.data;

@@ -41,7 +41,7 @@ plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_conta
 {
     PL_TRY(check_index(world, __func__, i, edit));
     const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    const pl_pair *pair = pl_pair_of(world, m);
     const pl_bodies *b = &world->bodies;
     *edit = (plumb_contact_edit){ .shape_a = world->pieces.shape[pair->a],
                                   .shape_b = world->pieces.shape[pair->b],

@@ -98,11 +98,6 @@ static bool is_above(const look_at *s, const pl_manifold *m)
     return (b_heavier ? -down : down) > ABOVE * s->weight;
 }
 
-static pl_pair *pair_of(const look_at *s, uint32_t contact)
-{
-    return &pl_pairs(&s->world->broad.pairs)[pl_manifolds(&s->world->narrow)[contact].pair];
-}
-
 // Uneven, whether the lighter body bears much already or not.
 static bool is_uneven(const look_at *s, const pl_manifold *m, const burden *b)
 {
@@ -165,7 +160,7 @@ static void look(const look_at *s)
         const pl_manifold *m = &pl_manifolds(&s->world->narrow)[i];
         burden b;
         const bool loaded = burden_of(s, m, &b);
-        pl_pair *pair = pair_of(s, i);
+        pl_pair *pair = pl_pair_of(s->world, m);
         const uint32_t was = pair->flags;
         const bool pressed = (loaded && (was & before) != 0) || (s->uneven && is_uneven(s, m, &b));
         if (loaded || (was & (now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) != 0) {

@@ -52,14 +52,14 @@ static vec turned(vec v, vec by)
 
 static bool is_round(const plumb_world *world, const pl_manifold *m)
 {
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    const pl_pair *pair = pl_pair_of(world, m);
     return world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE &&
            world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE;
 }
 
 bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m)
 {
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    const pl_pair *pair = pl_pair_of(world, m);
     return pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
                        world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
 }
@@ -68,7 +68,7 @@ bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m)
 
 static void find_cores(const plumb_world *world, const pl_manifold *m, pl_exact_turning *t)
 {
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    const pl_pair *pair = pl_pair_of(world, m);
     const pl_core *cores = world->pieces.core;
     const uint32_t turns = m->met & PL_MET_TURNS;
     const bool on_a = turns == PL_MET_TURNS_A, on_b = turns == PL_MET_TURNS_B;

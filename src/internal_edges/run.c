@@ -278,7 +278,7 @@ static void note_load(plumb_world *world, const run_contact *r, const pl_manifol
                            .pair = m->pair,
                            .nx = m->nx,
                            .ny = m->ny };
-    keep_load(load, &pl_pairs(&world->broad.pairs)[m->pair]);
+    keep_load(load, pl_pair_of(world, m));
 }
 
 #define BENT_OVER 4 // faces on either side whose mean bend is taken: corners are rounded numbers

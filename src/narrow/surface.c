@@ -111,7 +111,7 @@ static pl_grip grip_of(const plumb_world *world, uint32_t a, uint32_t b)
 pl_grip pl_surface_grip(const plumb_world *world, const pl_manifold *m)
 {
     if ((m->met & PL_MET_KINETIC) != 0) {
-        const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+        const pl_pair *pair = pl_pair_of(world, m);
         const uint32_t *material = world->pieces.material;
         const pl_grip g = grip_of(world, material[pair->a], material[pair->b]);
         if (m->friction == g.sticks || m->friction == g.slides) {

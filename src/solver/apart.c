@@ -51,14 +51,10 @@ typedef struct search {
     bool fine;               // the world may have fine islands
 } search;
 
-static pl_pair *pair_of(const search *s, uint32_t contact)
-{
-    return &pl_pairs(&s->world->broad.pairs)[pl_manifolds(&s->world->narrow)[contact].pair];
-}
-
 static bool is_seed(const search *s, uint32_t i)
 {
-    return (pair_of(s, i)->flags & PL_PAIR_PRESSED) != 0;
+    return (pl_pair_of(s->world, &pl_manifolds(&s->world->narrow)[i])->flags & PL_PAIR_PRESSED) !=
+           0;
 }
 
 static bool any_seed(const search *s)
@@ -220,7 +216,7 @@ static void forget_large(const search *s)
 {
     bool kept = false;
     for (uint32_t i = 0; i < s->contacts; ++i) {
-        pl_pair *pair = pair_of(s, i);
+        pl_pair *pair = pl_pair_of(s->world, &pl_manifolds(&s->world->narrow)[i]);
         if ((pair->flags & PL_PAIR_PRESSED) == 0) {
             continue;
         }
@@ -293,7 +289,7 @@ static void hand_over(const plumb_world *world)
     for (uint32_t i = 0, at = 0; solver->hard_before && i < world->narrow.manifold_count; ++i) {
         pl_manifold *m = &pl_manifolds(&world->narrow)[i];
         const bool is_hard = at < solver->hard_count && hard[at] == i;
-        const uint32_t flags = pl_pairs(&world->broad.pairs)[m->pair].flags;
+        const uint32_t flags = pl_pair_of(world, m)->flags;
         for (uint32_t k = 0; k < m->count && !is_hard && (flags & PL_PAIR_EXACT) != 0; ++k) {
             m->point[k].normal = m->point[k].tangent = 0;
         }
@@ -334,7 +330,7 @@ void pl_fine_note(plumb_world *world, real dt)
     const pl_ends *ends = world->narrow.ends.data;
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+        pl_pair *pair = pl_pair_of(world, m);
         const uint32_t row = ends[i].a < world->dynamic_count ? ends[i].a : ends[i].b;
         const bool fine = solver->fine_cluster != PL_NONE && labels[row] == solver->fine_cluster;
         const uint32_t level = fine ? pl_fine_level(pair->flags, m, &clock) : 0;

@@ -129,7 +129,7 @@ static void prepare(classic *c, const plumb_world *world)
         out->bix = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, b->inv_mass);
         out->biy = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, b->inv_mass);
         out->pull = m->adhesion * c->h / (near_real)m->count;
-        out->reach = pl_adhesion_reach(pl_pairs(&world->broad.pairs)[m->pair].flags);
+        out->reach = pl_adhesion_reach(pl_pair_of(world, m)->flags);
         near_real mass_n = inverse_mass(world, out, a, b, m->nx, m->ny);
         near_real mass_t = inverse_mass(world, out, a, b, m->ny, m->nx);
         for (uint32_t j = 0; j < m->count; ++j) {
@@ -149,7 +149,7 @@ static void prepare(classic *c, const plumb_world *world)
         }
         near_real inertia = a->inv_inertia + b->inv_inertia;
         out->mr = inverse_or_zero(inertia);
-        near_real carried = pl_pairs(&world->broad.pairs)[m->pair].rolling;
+        near_real carried = pl_pair_of(world, m)->rolling;
         out->lr = m->rolling > 0 ? within(carried, rolling_bound(c, out)) : 0;
     }
 }

@@ -56,14 +56,13 @@ static void run_stage(pl_substep *s, pl_substep_stage stage, int times)
 static int relaxations_of(const pl_substep *s)
 {
     const plumb_world_desc *d = &s->world->desc;
-    const int times = s->count / d->substeps;
     if (s->solving->exact || d->solver == PLUMB_SOLVER_EXACT) {
         return 1;
     }
     if (d->solver != PLUMB_SOLVER_SOFT) {
         return PL_CLASSIC_CORRECTIONS;
     }
-    const bool ends = s->solving->fine && (s->number + 1) % times == 0;
+    const bool ends = s->solving->fine && (s->number + 1) % s->finer == 0;
     return d->iterations + (ends ? PL_FINE_RELAXATIONS : 0);
 }
 
@@ -128,6 +127,7 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
                      .thread = thread,
                      .h = h,
                      .count = step->world->desc.substeps * times,
+                     .finer = times,
                      .solving = &solving };
     if (fine) {
         solving.call.h = h;

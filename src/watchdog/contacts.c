@@ -198,7 +198,7 @@ void pl_watch_contacts(plumb_world *world, real dt)
     memset(deep, 0, world->pieces.table.count * sizeof(uint32_t));
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+        const pl_pair *pair = pl_pair_of(world, m);
         const contact c = { m, pair, world->pieces.body[pair->a], world->pieces.body[pair->b] };
         if ((pair->flags & (PL_PAIR_WAIVED | PL_PAIR_PASSING | PL_PAIR_DROPPING)) != 0) {
             continue;

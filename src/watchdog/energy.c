@@ -190,7 +190,7 @@ static void drive_by_contacts(const plumb_world *world)
 {
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+        const pl_pair *pair = pl_pair_of(world, m);
         const double speed = runs(world, pair->a) + runs(world, pair->b) +
                              carried(world, m->body_a) + carried(world, m->body_b) +
                              (m->restitution > 1 ? (double)world->desc.restitution_cap : 0);

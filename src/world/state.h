@@ -199,6 +199,12 @@ static inline pl_pose *pl_poses(const plumb_world *world)
     return (pl_pose *)world->poses.data;
 }
 
+// The pair that a manifold is of.
+static inline pl_pair *pl_pair_of(const plumb_world *world, const pl_manifold *m)
+{
+    return &pl_pairs(&world->broad.pairs)[m->pair];
+}
+
 static inline uint32_t *pl_moving(const plumb_world *world)
 {
     return (uint32_t *)world->moving.data;

@@ -28,6 +28,7 @@ struct pl_substep {
     uint32_t thread;            // whose room the cluster has
     near_real h;                // [s] length of the substep
     int number, count;          // of the substep, and how many the cluster takes
+    int finer;                  // of these, in place of one of the world's
     bool first, first_sweep;    // substep; sweep of a stage
     const pl_substep_row *row;  // that runs
     struct pl_solving *solving; // what only the solver's own rows need (solver/substep.h)
