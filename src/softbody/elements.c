@@ -34,104 +34,6 @@
 #define LEAD_MOST     0.5 // of s of edges
 #define LEAD_SOFTNESS 8.0
 
-static const pl_soft_point *point_at(const pl_soft_step *s, uint32_t i)
-{
-    return (const pl_soft_point *)s->points.data + i;
-}
-
-static const pl_soft_body *holder_of(const pl_soft_step *s, const pl_soft_point *p)
-{
-    return p->body == PL_NONE ? NULL : (const pl_soft_body *)s->bodies.data + p->body;
-}
-
-//---- between points and blocks -------------------------------------------------------------------
-
-// How a point follows the unknowns of its block: two rows of 3.
-static void follow(const pl_soft_step *s, const pl_soft_point *p, double j[6])
-{
-    const pl_soft_body *b = holder_of(s, p);
-    j[0] = b == NULL ? 1 : b->locked_x, j[1] = 0, j[2] = b == NULL ? 0 : -p->ry * b->locked_w;
-    j[3] = 0, j[4] = b == NULL ? 1 : b->locked_y, j[5] = b == NULL ? 0 : p->rx * b->locked_w;
-}
-
-// to += scale ja' k jb.
-static void add_block(double *to, const double ja[6], const double jb[6], const double k[4])
-{
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) {
-            to[3 * r + c] += ja[r] * (k[0] * jb[c] + k[1] * jb[3 + c]) +
-                             ja[3 + r] * (k[2] * jb[c] + k[3] * jb[3 + c]);
-        }
-    }
-}
-
-static void add_plain(double *to, const double k[4])
-{
-    to[0] += k[0], to[1] += k[1], to[3] += k[2], to[4] += k[3];
-}
-
-void pl_soft_add(const pl_soft_step *s, uint32_t a, uint32_t b, const double k[4])
-{
-    const pl_soft_matrix *m = &s->matrix;
-    const pl_soft_point *pa = point_at(s, a), *pb = point_at(s, b);
-    if (pa->block == PL_NONE || pb->block == PL_NONE) {
-        return;
-    }
-    const double turned[4] = { k[0], k[2], k[1], k[3] };
-    double ja[6], jb[6];
-    if (pa->body == PL_NONE && pb->body == PL_NONE) {
-        add_plain(a == b                  ? m->diagonal + 9 * (size_t)pa->block
-                  : pa->block > pb->block ? pl_soft_entry(m, pa->block, pb->block)
-                                          : pl_soft_entry(m, pb->block, pa->block),
-                  pa->block >= pb->block ? k : turned);
-        return;
-    }
-    follow(s, pa, ja);
-    follow(s, pb, jb);
-    if (pa->block == pb->block) {
-        double *to = m->diagonal + 9 * (size_t)pa->block;
-        add_block(to, ja, jb, k);
-        if (a != b) {
-            add_block(to, jb, ja, turned);
-        }
-    } else if (pa->block > pb->block) {
-        add_block(pl_soft_entry(m, pa->block, pb->block), ja, jb, k);
-    } else {
-        add_block(pl_soft_entry(m, pb->block, pa->block), jb, ja, turned);
-    }
-}
-
-void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y)
-{
-    const pl_soft_point *p = point_at(s, point);
-    if (p->block == PL_NONE) {
-        return;
-    }
-    double *to = s->matrix.right + 3 * (size_t)p->block;
-    const pl_soft_body *b = holder_of(s, p);
-    to[0] += b == NULL ? x : x * b->locked_x;
-    to[1] += b == NULL ? y : y * b->locked_y;
-    to[2] += b == NULL ? 0 : (p->rx * y - p->ry * x) * b->locked_w;
-}
-
-void pl_soft_change(const pl_soft_step *s)
-{
-    pl_soft_point *points = s->points.data;
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_point *p = &points[i];
-        const double *u = s->matrix.u + (p->block == PL_NONE ? 0 : 3 * (size_t)p->block);
-        if (p->block == PL_NONE) {
-            p->cx = p->cy = 0;
-        } else if (p->body == PL_NONE) {
-            p->cx = u[0], p->cy = u[1];
-        } else {
-            const pl_soft_body *b = holder_of(s, p);
-            p->cx = u[0] * b->locked_x - u[2] * b->locked_w * p->ry;
-            p->cy = u[1] * b->locked_y + u[2] * b->locked_w * p->rx;
-        }
-    }
-}
-
 //---- when forces are asked for -------------------------------------------------------------------
 
 // [s] of the damper beside a spring, over its stiffness: of what is h^2 k / m = z2.
@@ -199,7 +101,7 @@ static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t
                    bool fills, pl_soft_pull *now)
 {
     const uint32_t ia = first + e->a, ib = first + e->b;
-    const pl_soft_point *a = point_at(s, ia), *b = point_at(s, ib);
+    const pl_soft_point *a = pl_soft_point_at(s, ia), *b = pl_soft_point_at(s, ib);
     const double k = (double)e->stiffness, rest = (double)e->length, c = (double)e->damping;
     const double w = ease(a) + ease(b), z2 = h * h * k * w, zc = h * c * w;
     const double lead = LEAD_MOST * z2 / (z2 + LEAD_SOFTNESS), later = 0.25 + 0.75 * lead;
@@ -272,18 +174,18 @@ static double bend(const pl_soft_step *s, const plumb_softbody_bend *e, uint32_t
 {
     const uint32_t i[3] = { first + e->a, first + e->b, first + e->c };
     const double k = (double)e->stiffness / (double)e->length, l = (double)e->length;
-    const double w =
-        ease(point_at(s, i[0])) + 4 * ease(point_at(s, i[1])) + ease(point_at(s, i[2]));
+    const double w = ease(pl_soft_point_at(s, i[0])) + 4 * ease(pl_soft_point_at(s, i[1])) +
+                     ease(pl_soft_point_at(s, i[2]));
     const double c = k * calm(h * h * k * w / (l * l), h), slope = h * k / 4 + LATE * c;
     double p[3][2], g[6], rate = 0;
     for (int n = 0; n < 3; ++n) {
-        place(point_at(s, i[n]), h, p[n]);
+        place(pl_soft_point_at(s, i[n]), h, p[n]);
     }
     if (!turn_slopes(p[0], p[1], p[2], g)) {
         return 0;
     }
     for (int n = 0; n < 3; ++n) {
-        const pl_soft_point *q = point_at(s, i[n]);
+        const pl_soft_point *q = pl_soft_point_at(s, i[n]);
         rate += g[2 * n] * (q->vx + LATE * q->cx) + g[2 * n + 1] * (q->vy + LATE * q->cy);
     }
     const double turn = wrapped(turn_of(p[0], p[1], p[2]) - (double)e->angle);
@@ -353,12 +255,12 @@ static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, u
     }
     double w = 0;
     for (int n = 0; n < 3; ++n) {
-        w += ease(point_at(s, i[n])) * (t.g[n][0] * t.g[n][0] + t.g[n][1] * t.g[n][1]);
+        w += ease(pl_soft_point_at(s, i[n])) * (t.g[n][0] * t.g[n][0] + t.g[n][1] * t.g[n][1]);
     }
     const double time = (double)e->damping + calm(h * h * (t.lambda + t.mu) * t.area * w, h);
     double p[3][2], f[4], slope[3][2];
     for (int n = 0; n < 3; ++n) {
-        place(point_at(s, i[n]), h, p[n]);
+        place(pl_soft_point_at(s, i[n]), h, p[n]);
     }
     deform(&t, (const double(*)[2])p, f);
     const double excess = t.lambda * (f[0] * f[3] - f[1] * f[2] - 1) - t.mu;
@@ -370,7 +272,7 @@ static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, u
     // The damper sees the rate of Green's strain (11, 22, twice 12), which no turn has.
     double sees[3][3][2], rate[3] = { 0, 0, 0 };
     for (int n = 0; n < 3; ++n) {
-        const pl_soft_point *q = point_at(s, i[n]);
+        const pl_soft_point *q = pl_soft_point_at(s, i[n]);
         for (int k = 0; k < 2; ++k) {
             const double f1 = f[2 * k], f2 = f[2 * k + 1];
             const double v = k == 0 ? q->vx + LATE * q->cx : q->vy + LATE * q->cy;
@@ -452,8 +354,8 @@ static void slope_of_area(const pl_soft_step *s, uint32_t first, const uint32_t 
                           uint32_t i, double h, double out[2])
 {
     double before[2], behind[2];
-    place(point_at(s, first + ring[(i + n - 1) % n]), h, before);
-    place(point_at(s, first + ring[(i + 1) % n]), h, behind);
+    place(pl_soft_point_at(s, first + ring[(i + n - 1) % n]), h, before);
+    place(pl_soft_point_at(s, first + ring[(i + 1) % n]), h, behind);
     out[0] = (behind[1] - before[1]) / 2, out[1] = (before[0] - behind[0]) / 2;
 }
 
@@ -464,9 +366,9 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
     const pl_soft_matrix *mx = &s->matrix;
     const uint32_t n = item->ring;
     double area = 0, rate = 0, p[3][2];
-    place(point_at(s, first + ring[n - 1]), h, p[0]);
+    place(pl_soft_point_at(s, first + ring[n - 1]), h, p[0]);
     for (uint32_t i = 0; i < n; ++i) {
-        place(point_at(s, first + ring[i]), h, p[1]);
+        place(pl_soft_point_at(s, first + ring[i]), h, p[1]);
         area += (p[0][0] * p[1][1] - p[0][1] * p[1][0]) / 2;
         p[0][0] = p[1][0], p[0][1] = p[1][1];
     }
@@ -477,7 +379,7 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
         mx->diagonal[9 * (size_t)block] = stiff > 0 ? -1 / (h * (h * stiff / 4 + LATE * c)) : -1;
     }
     for (uint32_t i = 0; i < n; ++i) {
-        const pl_soft_point *node = point_at(s, first + ring[i]);
+        const pl_soft_point *node = pl_soft_point_at(s, first + ring[i]);
         double g[2];
         slope_of_area(s, first, ring, n, i, h, g);
         rate += g[0] * (node->vx + LATE * node->cx) + g[1] * (node->vy + LATE * node->cy);
@@ -487,11 +389,11 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
         double g[2], j[6];
         slope_of_area(s, first, ring, n, i, h, g);
         pl_soft_push(s, at, h * (pressure - c * rate) * g[0], h * (pressure - c * rate) * g[1]);
-        const pl_soft_point *node = point_at(s, at);
+        const pl_soft_point *node = pl_soft_point_at(s, at);
         if (node->block == PL_NONE || !(stiff > 0)) {
             continue;
         }
-        follow(s, node, j);
+        pl_soft_follow(s, node, j);
         double *to = pl_soft_entry(mx, block, node->block);
         for (int k = 0; k < 3; ++k) {
             to[k] += g[0] * j[k] + g[1] * j[3 + k];
@@ -535,84 +437,6 @@ double pl_soft_elements(plumb_world *world, double h, bool fills)
     return energy;
 }
 
-//---- after the step ------------------------------------------------------------------------------
-
-static double exact(real value, real rest)
-{
-    return (double)value + (double)rest;
-}
-
-static void node_place(const plumb_softbody_node *n, double out[2])
-{
-    out[0] = exact(n->position.x, n->position_rest.x);
-    out[1] = exact(n->position.y, n->position_rest.y);
-}
-
-static double length_of(const plumb_softbody_node *nodes, const plumb_softbody_edge *e)
-{
-    double a[2], b[2];
-    node_place(&nodes[e->a], a);
-    node_place(&nodes[e->b], b);
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    return sqrt(dx * dx + dy * dy);
-}
-
-static void settle(plumb_softbody_edge *e, const pl_soft_pull *now)
-{
-    const double strain = now->strain, yield = (double)e->yield_strain;
-    const double length = (1 + strain) * (double)e->length;
-    const bool torn = (e->flags & PLUMB_EDGE_TORN) != 0;
-    e->flags &= ~PLUMB_EDGE_TORN_NOW;
-    e->tension = torn ? 0 : (real)now->tension;
-    if (torn) {
-        return;
-    }
-    if (e->break_strain > 0 && strain > (double)e->break_strain) {
-        e->flags |= PLUMB_EDGE_TORN | PLUMB_EDGE_TORN_NOW;
-        e->tension = 0;
-    } else if (yield > 0 && strain > yield) {
-        e->length = (real)(length / (1 + yield));
-    } else if (yield > 0 && strain < -yield && (e->flags & PLUMB_EDGE_PULLS) == 0) {
-        e->length = (real)(length / (1 - yield));
-    }
-}
-
-// Nothing bends any more over an edge that is torn.
-static void limp(const pl_softbodies *all, const pl_softbody *item, pl_softbody_place at,
-                 const plumb_softbody_edge *torn)
-{
-    for (uint32_t k = 0; k < item->bends; ++k) {
-        plumb_softbody_bend *b = &pl_softbody_bends(all)[at.bend + k];
-        const bool first =
-            (b->a == torn->a && b->b == torn->b) || (b->a == torn->b && b->b == torn->a);
-        const bool second =
-            (b->b == torn->a && b->c == torn->b) || (b->b == torn->b && b->c == torn->a);
-        b->stiffness = first || second ? 0 : b->stiffness;
-    }
-}
-
-void pl_soft_settle_edges(plumb_world *world)
-{
-    const pl_softbodies *all = &world->softbodies;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
-    for (uint32_t i = 0; i < all->count; ++i) {
-        pl_softbody *item = &pl_softbody_items(all)[i];
-        bool tears = false;
-        for (uint32_t k = 0; k < item->edges; ++k) {
-            plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
-            settle(e, (const pl_soft_pull *)all->step->pulls.data + at.edge + k);
-            if ((e->flags & PLUMB_EDGE_TORN_NOW) != 0) {
-                tears = true;
-                limp(all, item, at, e);
-            }
-        }
-        if (tears && item->ring > 0) { // its gas is out
-            item->pressure = item->ambient = 0;
-        }
-        at = pl_softbody_behind(at, item);
-    }
-}
-
 //---- energy --------------------------------------------------------------------------------------
 
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
@@ -621,11 +445,20 @@ double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbo
     const uint32_t *ring = pl_softbody_rings(&world->softbodies) + at.ring;
     double area = 0, p[2], q[2];
     for (uint32_t i = 0; i < item->ring; ++i) {
-        node_place(&nodes[ring[i]], p);
-        node_place(&nodes[ring[(i + 1) % item->ring]], q);
+        pl_soft_node_place(&nodes[ring[i]], p);
+        pl_soft_node_place(&nodes[ring[(i + 1) % item->ring]], q);
         area += (p[0] * q[1] - p[1] * q[0]) / 2;
     }
     return area;
+}
+
+static double length_of(const plumb_softbody_node *nodes, const plumb_softbody_edge *e)
+{
+    double a[2], b[2];
+    pl_soft_node_place(&nodes[e->a], a);
+    pl_soft_node_place(&nodes[e->b], b);
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    return sqrt(dx * dx + dy * dy);
 }
 
 double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at)
@@ -644,9 +477,9 @@ double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place
     for (uint32_t k = 0; k < item->bends; ++k) {
         const plumb_softbody_bend *e = &pl_softbody_bends(all)[at.bend + k];
         double a[2], b[2], c[2];
-        node_place(&nodes[e->a], a);
-        node_place(&nodes[e->b], b);
-        node_place(&nodes[e->c], c);
+        pl_soft_node_place(&nodes[e->a], a);
+        pl_soft_node_place(&nodes[e->b], b);
+        pl_soft_node_place(&nodes[e->c], c);
         const double turn = wrapped(turn_of(a, b, c) - (double)e->angle);
         sum += (double)e->stiffness / (double)e->length * turn * turn / 2;
     }
@@ -657,9 +490,9 @@ double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place
         if (!sheet_of(e, &t)) {
             continue;
         }
-        node_place(&nodes[e->a], p[0]);
-        node_place(&nodes[e->b], p[1]);
-        node_place(&nodes[e->c], p[2]);
+        pl_soft_node_place(&nodes[e->a], p[0]);
+        pl_soft_node_place(&nodes[e->b], p[1]);
+        pl_soft_node_place(&nodes[e->c], p[2]);
         deform(&t, (const double(*)[2])p, f);
         sum += t.area * density_of(&t, f);
     }

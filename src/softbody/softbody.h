@@ -12,6 +12,12 @@ bool pl_softbodies_are_sound(const pl_softbodies *s);
 // Adds their energy, momentum and mass.
 void pl_softbodies_energy(const plumb_world *world, plumb_energy *energy);
 
+static inline void pl_soft_node_place(const plumb_softbody_node *n, double out[2])
+{
+    out[0] = (double)n->position.x + (double)n->position_rest.x;
+    out[1] = (double)n->position.y + (double)n->position_rest.y;
+}
+
 //---- step.c --------------------------------------------------------------------------------------
 
 // Before the graph: nodes and what is near them. False when out of memory.
@@ -39,19 +45,32 @@ double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column);
 void pl_soft_factor(pl_soft_matrix *m);
 void pl_soft_solve(const pl_soft_matrix *m);
 
-//---- elements.c ----------------------------------------------------------------------------------
+//---- points.c ------------------------------------------------------------------------------------
 
-// The function that is to be least, of all elements, at the velocities that u adds [kg m^2/s^2]. Where it `fills`, their
-// impulses are added to `right` [N s] and their stiffness to the matrix.
-double pl_soft_elements(plumb_world *world, double h, bool fills);
+static inline const pl_soft_point *pl_soft_point_at(const pl_soft_step *s, uint32_t i)
+{
+    return (const pl_soft_point *)s->points.data + i;
+}
+
+// How a point follows the unknowns of its block: two rows of 3.
+void pl_soft_follow(const pl_soft_step *s, const pl_soft_point *p, double j[6]);
 // Adds k (2 x 2) between two points, and its transpose where they are different, as blocks have them.
 void pl_soft_add(const pl_soft_step *s, uint32_t a, uint32_t b, const double k[4]);
 // Adds an impulse at a point.
 void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y);
 // What u adds to the velocities of points.
 void pl_soft_change(const pl_soft_step *s);
+
+//---- settle.c ------------------------------------------------------------------------------------
+
 // Ready when the step is over: tension, what tears, what yields.
 void pl_soft_settle_edges(plumb_world *world);
+
+//---- elements.c ----------------------------------------------------------------------------------
+
+// The function that is to be least, of all elements, at the velocities that u adds [kg m^2/s^2]. Where it `fills`, their
+// impulses are added to `right` [N s] and their stiffness to the matrix.
+double pl_soft_elements(plumb_world *world, double h, bool fills);
 // [J] in all elements; [m^2], [N/m] of the gas of one.
 double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at);
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at);
