@@ -287,11 +287,6 @@ plumb_result plumb_softbody_release(plumb_world *world, plumb_softbody softbody,
 
 //---- measured ------------------------------------------------------------------------------------
 
-static double exact(real value, real rest)
-{
-    return (double)value + (double)rest;
-}
-
 static void sum_nodes(const pl_softbodies *s, const pl_softbody *item, pl_softbody_place at,
                       plumb_energy *e)
 {
@@ -304,10 +299,10 @@ static void sum_nodes(const pl_softbodies *s, const pl_softbody *item, pl_softbo
         }
         const plumb_softbody_node *n = &pl_softbody_nodes(s)[at.node + i];
         const double m = (double)n->mass;
-        const double x = exact(n->position.x, n->position_rest.x);
-        const double y = exact(n->position.y, n->position_rest.y);
-        const double u = exact(n->velocity.x, n->velocity_rest.x);
-        const double v = exact(n->velocity.y, n->velocity_rest.y);
+        const double x = pl_soft_exact(n->position.x, n->position_rest.x);
+        const double y = pl_soft_exact(n->position.y, n->position_rest.y);
+        const double u = pl_soft_exact(n->velocity.x, n->velocity_rest.x);
+        const double v = pl_soft_exact(n->velocity.y, n->velocity_rest.y);
         e->kinetic += m * (u * u + v * v) / 2;
         e->momentum_x += m * u, e->momentum_y += m * v;
         e->angular_momentum += m * (x * v - y * u);

@@ -153,18 +153,18 @@ static void trim(pl_mesh *m, const outline *d)
 
 bool pl_mesh_fill(pl_mesh *m, const plumb_vec2 *points, int count, double spacing)
 {
-    const outline rim = { points, count }, *d = &rim;
+    const outline within = { points, count };
     double box[4] = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (int i = 0; i < d->count; ++i) {
-        const double x = (double)d->points[i].x - (double)d->points[0].x;
-        const double y = (double)d->points[i].y - (double)d->points[0].y;
+    for (int i = 0; i < count; ++i) {
+        const double x = (double)points[i].x - (double)points[0].x;
+        const double y = (double)points[i].y - (double)points[0].y;
         box[0] = x < box[0] ? x : box[0], box[1] = y < box[1] ? y : box[1];
         box[2] = x > box[2] ? x : box[2], box[3] = y > box[3] ? y : box[3];
     }
     const double w = box[2] - box[0], h = box[3] - box[1], side = w > h ? w : h;
     m->spacing = spacing > 0 ? spacing : side / 10;
     m->nodes = m->rim = m->triangles = 0;
-    if (!line_rim(m, d) || !fill(m, d, box)) {
+    if (!line_rim(m, &within) || !fill(m, &within, box)) {
         return false;
     }
     for (int k = 0; k < 3; ++k) { // around all of it
@@ -177,6 +177,6 @@ bool pl_mesh_fill(pl_mesh *m, const plumb_vec2 *points, int count, double spacin
     for (int i = 0; i < m->nodes; ++i) {
         insert(m, i);
     }
-    trim(m, d);
+    trim(m, &within);
     return m->triangles > 0;
 }

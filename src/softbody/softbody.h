@@ -12,10 +12,16 @@ bool pl_softbodies_are_sound(const pl_softbodies *s);
 // Adds their energy, momentum and mass.
 void pl_softbodies_energy(const plumb_world *world, plumb_energy *energy);
 
+// A number of a node with what rounding left of it.
+static inline double pl_soft_exact(plumb_real value, plumb_real rest)
+{
+    return (double)value + (double)rest;
+}
+
 static inline void pl_soft_node_place(const plumb_softbody_node *n, double out[2])
 {
-    out[0] = (double)n->position.x + (double)n->position_rest.x;
-    out[1] = (double)n->position.y + (double)n->position_rest.y;
+    out[0] = pl_soft_exact(n->position.x, n->position_rest.x);
+    out[1] = pl_soft_exact(n->position.y, n->position_rest.y);
 }
 
 //---- step.c --------------------------------------------------------------------------------------

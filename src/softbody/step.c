@@ -66,10 +66,10 @@ static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, uint
     for (uint32_t i = first; i < first + item->nodes; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
         points_of(all->step)[i] =
-            (pl_soft_point){ .x = (double)n->position.x + (double)n->position_rest.x,
-                             .y = (double)n->position.y + (double)n->position_rest.y,
-                             .vx = (double)n->velocity.x + (double)n->velocity_rest.x,
-                             .vy = (double)n->velocity.y + (double)n->velocity_rest.y,
+            (pl_soft_point){ .x = pl_soft_exact(n->position.x, n->position_rest.x),
+                             .y = pl_soft_exact(n->position.y, n->position_rest.y),
+                             .vx = pl_soft_exact(n->velocity.x, n->velocity_rest.x),
+                             .vy = pl_soft_exact(n->velocity.y, n->velocity_rest.y),
                              .mass = (double)n->mass,
                              .radius = (double)n->radius,
                              .damping = (double)item->damping,
