@@ -1,6 +1,6 @@
 -- discs.lua - 400 discs fall into a box; frictionless and without rotation unless asked otherwise.
 -- Shows: what is not asked for is not paid for. Compare `plumb explain` of this scene with the same and
--- `--set friction=0.5 --set turning=1`; the README of assets/scenes has the instruction counts.
+-- `--set friction=0.5 --set turning=1`; the project's README has the instruction counts.
 scene { title = "Discs", description = "Discs that neither rub nor turn.", duration = 5 }
 camera { fit = {{-11, -1}, {11, 16}} }
 

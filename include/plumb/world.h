@@ -55,10 +55,10 @@ typedef struct plumb_world_desc {
                                     ///< step for two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands
     bool no_fine_islands;           ///< Soft step: unless this is set, and while all contacts and joints that are awake are 512 at
                                     ///< the most, islands in which dynamic bodies touch one another take four substeps in place
-                                    ///< of one (16 a step at the most), with contacts that are as much stiffer, recovery from
+                                    ///< of one (16 a step at the most), with contacts, not joints, as much stiffer, recovery from
                                     ///< overlap at a tenth of push_speed and five more sweeps that relax where a substep of the
-                                    ///< world ends: 100 us more a step for 55 boxes. Not where a motor drives, restitution is above
-                                    ///< 0.2 or systems run in substeps. How many: plumb_stats.fine_islands
+                                    ///< world ends: 100 us more a step for 55 boxes. Not where restitution is above 0.2 or systems
+                                    ///< run in substeps. How many: plumb_stats.fine_islands
     plumb_real tolerance;           ///< [-] 0..0.5, default 0: none. Error that the world may make: it then chooses
                                     ///< solver, substeps and direct_joints itself, and those given are what it
                                     ///< begins with. See plumb/accuracy.h
