@@ -27,6 +27,7 @@
 #include "plumb/air.h"
 #include "plumb/liquid.h"
 #include "plumb/softbody.h"
+#include "plumb/waves.h"
 #include "plumb/loop.h"
 #include "plumb/accuracy.h"
 #include "plumb/measure.h"

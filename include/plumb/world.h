@@ -128,6 +128,10 @@ PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
 /// of the phases before may have run: forces they added are still there; bodies touched may have woken).
 PLUMB_API plumb_result plumb_world_step(plumb_world *world, plumb_real dt);
 
+/// Sets the simulated time (`time` of plumb_world_stats), 0..1e12 s; a new world's is 0. Gusts, eddies and swell are functions
+/// of it. Errors: E_NULL, E_RANGE, E_NOT_FINITE, E_LOCKED.
+PLUMB_API plumb_result plumb_world_set_time(plumb_world *world, double time);
+
 /// Changes gravity [m/s^2]; zero is zero here. Errors: E_NOT_FINITE.
 PLUMB_API plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity);
 

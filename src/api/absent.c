@@ -15,6 +15,7 @@
 #include "effects/fluid.h"
 #include "effects/gather.h"
 #include "effects/laws.h"
+#include "effects/waves.h"
 #include "event/event.h"
 #include "exact/exact.h"
 #include "joints/energy.h"
@@ -139,6 +140,19 @@ ROW(pl_fluid_row)
 VOID(pl_fluid_volume, const plumb_world *world, uint32_t piece, pl_volume *out)
 VOID(pl_fluid_velocity, const plumb_world *world, const pl_volume *volume, double x, double y, const double from[2], double since, double out[2])
 GIVES(bool, pl_fluid_acts_on, false, const plumb_world *world, uint32_t row)
+#endif
+
+#if !PL_HAS(WAVES)
+WANT(pl_want_waves)
+PASS(pl_run_wave_motion)
+RESERVE_DT(pl_waves_open)
+RESERVE(pl_waves_feel)
+FREE(pl_waves_free, pl_waves)
+GIVES(bool, pl_waves_are_lively, false, const plumb_world *world, uint32_t piece)
+GIVES(pl_basin, pl_basin_of, (pl_basin){ .stands = false }, const plumb_world *world, const pl_wave_surface *surface)
+VOID(pl_waves_sample, const pl_basin *basin, const pl_wave_surface *surface, const plumb_wave_mode *modes, double time, double x, double out[3])
+VOID(pl_waves_flow, const pl_basin *basin, const pl_wave_surface *surface, const plumb_wave_mode *modes, double time, double x, double z, double out[2])
+GIVES(double, pl_wave_omega, 1, const pl_basin *basin, double k)
 #endif
 
 #if !PL_HAS(LAWS)

@@ -15,6 +15,7 @@
 #include "internal_edges/internal_edges.h"
 #include "joints/joint.h"
 #include "effects/laws.h"
+#include "effects/waves.h"
 #include "air/air.h"
 #include "liquid/liquid.h"
 #include "softbody/softbody.h"
@@ -135,7 +136,7 @@ static size_t query_grid_bytes(const pl_query_grid_set *set)
 static void tell_rest(listing *out, const plumb_world *w)
 {
     size_t characters = 0, liquid = 0, air = 0, softbodies = 0, laws = 0, systems = 0, measures = 0;
-    size_t watchdog = 0;
+    size_t watchdog = 0, waves = 0;
     size_t effects = BUFFERS(&w->settings.items, &w->targets.items, &w->tracks.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
@@ -143,6 +144,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     PART(air, pl_air, w->air, pl_air_free(&dry, &copy));
     PART(softbodies, pl_softbodies, w->softbodies, pl_softbodies_free(&dry, &copy));
     PART(laws, pl_laws, w->laws, pl_laws_free(&dry, &copy));
+    PART(waves, pl_waves, w->waves, pl_waves_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_schedule, w->schedule, pl_schedule_free(&dry, &copy));
     PART(measures, pl_measure, w->measure, pl_measure_free(&dry, &copy));
@@ -158,6 +160,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     tell(out, "air", air, w->air.cell_count);
     tell(out, "soft bodies", softbodies, w->softbodies.count);
     tell(out, "laws", laws, w->laws.count);
+    tell(out, "waves", waves, w->waves.mode_count);
     tell(out, "effects", effects, 0);
     tell(out, "events", events, 0);
     tell(out, "components", component_bytes(&w->components), w->components.count);

@@ -15,6 +15,7 @@
 #include "joints/energy.h"
 #include "joints/joint.h"
 #include "effects/laws.h"
+#include "effects/waves.h"
 #include "api/fracture.h"
 #include "air/air.h"
 #include "liquid/liquid.h"
@@ -179,6 +180,7 @@ static void free_world(plumb_world *world)
     pl_air_free(&memory, &world->air);
     pl_softbodies_free(&memory, &world->softbodies);
     pl_laws_free(&memory, &world->laws);
+    pl_waves_free(&memory, &world->waves);
     pl_fracture_free(&memory, &world->fracture);
     pl_continuous_free(&memory, &world->continuous);
     pl_quarantine_free(&memory, &world->quarantine);
@@ -298,6 +300,20 @@ plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
     world->gravity = world->desc.gravity = gravity;
     world->desc.zero_gravity = gravity.x == 0 && gravity.y == 0;
     world->schedule_dirty = true;
+    return PLUMB_OK;
+}
+
+plumb_result plumb_world_set_time(plumb_world *world, double time)
+{
+    PL_TRY(pl_check_world(world));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (time - time != 0) {
+        return pl_fail(world, PLUMB_E_NOT_FINITE, __func__, "time is %g; it must be finite", time);
+    }
+    if (time < 0 || time > 1e12) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "time is %g; it must be 0 to 1e12", time);
+    }
+    world->time = time;
     return PLUMB_OK;
 }
 

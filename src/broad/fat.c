@@ -6,6 +6,7 @@
 
 #include "broad/pairs.h"
 #include "world/body_settings.h"
+#include "world/waves_list.h"
 #include "world/wrap.h"
 
 #include <string.h>
@@ -241,6 +242,9 @@ void pl_broad_refresh_fixed(plumb_world *world)
     for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
         if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
             pl_box box = widened(pl_piece_filed_box(world, piece), PL_SPECULATIVE / 2);
+            if ((pieces->flags[piece] & PL_PIECE_WAVES) != 0) {
+                box = widened(box, pl_waves_reach(world, piece));
+            }
             if (asleep && memcmp(&box, &pieces->fat[piece], sizeof box) != 0) {
                 note_placed(world, piece);
             }

@@ -8,9 +8,11 @@
 //
 // Reads: the material. Cost: 16 cosines and an exponential where there are gusts and a layer.
 #include "effects/fluid.h"
+#include "effects/waves.h"
 
 #include "math/decay.h"
 #include "math/trig.h"
+#include "world/waves_list.h"
 
 #include <math.h>
 
@@ -55,6 +57,32 @@ void pl_fluid_flow(const plumb_world *world, const pl_volume *volume, double x, 
     out[1] = share * fy;
 }
 
+// Of waves, at a place from the centre of the volume's body; nothing above the surface.
+static void add_waves(const plumb_world *world, const pl_volume *volume, const double from[2],
+                      double since, double out[2])
+{
+    const pl_wave_surface *surface = (world->pieces.flags[volume->piece] & PL_PIECE_WAVES) == 0
+                                         ? NULL
+                                         : pl_waves_of(world, world->pieces.shape[volume->piece]);
+    if (surface == NULL) {
+        return;
+    }
+    const pl_basin b = pl_basin_of(world, surface);
+    const plumb_wave_mode *modes = pl_wave_modes(&world->waves) + surface->first;
+    const double x = from[0] - b.left, time = world->time + since;
+    if (!b.stands || x < 0 || x > b.width) {
+        return;
+    }
+    double wave[3], flow[2];
+    pl_waves_sample(&b, surface, modes, time, x, wave);
+    const double z = b.up * from[1] - b.level - wave[0];
+    if (z <= 0) {
+        pl_waves_flow(&b, surface, modes, time, x, z, flow);
+        out[0] += flow[0];
+        out[1] += flow[1];
+    }
+}
+
 void pl_fluid_velocity(const plumb_world *world, const pl_volume *volume, double x, double y,
                        const double from[2], double since, double out[2])
 {
@@ -67,4 +95,5 @@ void pl_fluid_velocity(const plumb_world *world, const pl_volume *volume, double
     pl_local_flow(world, volume, from[0], from[1], since, local);
     out[0] = even[0] + local[0] + (double)b->vx[holder] - w * from[1];
     out[1] = even[1] + local[1] + (double)b->vy[holder] + w * from[0];
+    add_waves(world, volume, from, since, out);
 }

@@ -8,6 +8,7 @@
 // Reads: candidates of sensors, pieces, materials, poses. Writes: lists, masses of solver bodies. Order: behind the sensors'
 // candidates; behind the graph. Cost: O(candidates), O(edges) a piece in a volume.
 #include "effects/fluid.h"
+#include "effects/waves.h"
 
 #include "core/fill.h"
 #include "core/sort.h"
@@ -26,7 +27,7 @@ bool pl_want_fluids(const plumb_world *world, const char **reason)
     for (uint32_t row = 0; row < m->table.count && world->sensor_pieces > 0; ++row) {
         wanted |= m->fluid[row] && m->users[row] > 0;
     }
-    wanted &= world->dynamic_count > 0;
+    wanted &= world->dynamic_count > 0 || world->waves.count > 0;
     *reason = wanted ? "some sensor is of a fluid" : "no sensor is of a fluid that could act";
     return wanted;
 }
@@ -38,19 +39,24 @@ bool pl_fluid_acts_on(const plumb_world *world, uint32_t row)
 
 //---- who is near ---------------------------------------------------------------------------------
 
-// What sleeps in a volume that moves wakes; in gusts and eddies nobody falls asleep.
+// What sleeps in a volume that moves wakes.
 static void heed(plumb_world *world, uint32_t sensor, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t holder = world->pieces.body[sensor];
     const bool moves = b->vx[holder] != 0 || b->vy[holder] != 0 || b->w[holder] != 0;
-    const uint32_t of = world->pieces.material[sensor];
-    const bool gusty = world->materials.gust[of] > 0 || world->materials.eddies[of] > 0;
     if (moves && pl_row_is_asleep(world, row)) {
         pl_sleep_disturb(world, row);
-    } else if (gusty && row < world->dynamic_count) {
-        b->rest_time[row] = PL_NOT_RESTING;
     }
+}
+
+// In gusts, eddies and waves nobody falls asleep.
+static bool is_restless(const plumb_world *world, uint32_t piece)
+{
+    const uint32_t of = world->pieces.material[piece];
+    return world->materials.gust[of] > 0 || world->materials.eddies[of] > 0 ||
+           ((world->pieces.flags[piece] & PL_PIECE_WAVES) != 0 &&
+            pl_waves_are_lively(world, piece));
 }
 
 static bool is_volume(const plumb_world *world, uint32_t piece)
@@ -78,6 +84,11 @@ void pl_fluid_volume(const plumb_world *world, uint32_t piece, pl_volume *v)
     v->plane_count = pl_half_planes_of(&shape, frame, 0, 0, v->planes);
     v->up_x = pull > 0 ? -(double)g.x / pull : (double)up.x;
     v->up_y = pull > 0 ? -(double)g.y / pull : (double)up.y;
+    v->top = -1;
+    for (int i = 0; i < v->plane_count; ++i) {
+        const double rise = v->up_x * v->planes[i].nx + v->up_y * v->planes[i].ny;
+        v->top = rise > 1 - 1e-6 ? i : v->top;
+    }
     v->bottom = INFINITY;
     for (int i = 0; i < shape.count; ++i) {
         const plumb_vec2 p = plumb_transform_apply(frame, shape.points[i]);
@@ -92,12 +103,17 @@ bool pl_fluids_find(plumb_world *world)
     const pl_pieces *pieces = &world->pieces;
     const pl_sensing *sensing = &world->sensing;
     const pl_keyed *c = sensing->candidates.data;
+    pl_buffer *stirrers = &world->waves.step.stirrers;
     e->volume_count = e->immersion_count = e->swimmer_count = 0;
+    world->waves.step.stirrer_count = 0;
     if (!pl_buffer_reserve(&world->memory, &e->swims, world->dynamic_count) ||
         !pl_buffer_reserve(&world->memory, &e->volumes,
                            sensing->candidate_count * sizeof(pl_volume)) ||
         !pl_buffer_reserve(&world->memory, &e->immersions,
-                           sensing->candidate_count * sizeof(pl_keyed))) {
+                           sensing->candidate_count * sizeof(pl_keyed)) ||
+        (world->waves.count > 0 &&
+         !pl_buffer_reserve(&world->memory, stirrers,
+                            sensing->candidate_count * sizeof(pl_keyed)))) {
         return false;
     }
     pl_fill(e->swims.data, 0, world->dynamic_count);
@@ -107,7 +123,10 @@ bool pl_fluids_find(plumb_world *world)
             continue;
         }
         heed(world, sensor, row);
-        if (row >= world->dynamic_count || world->bodies.inv_mass[row] == 0) {
+        const bool floats = row < world->dynamic_count && world->bodies.inv_mass[row] != 0;
+        const bool stirs = (pieces->flags[sensor] & PL_PIECE_WAVES) != 0 &&
+                           world->bodies.type[row] == PLUMB_KINEMATIC;
+        if (!floats && !stirs) {
             continue;
         }
         // Candidates are sorted by shapes: volumes of the shape are the last ones.
@@ -121,7 +140,14 @@ bool pl_fluids_find(plumb_world *world)
             ++at;
         }
         if (at == e->volume_count) {
-            pl_fluid_volume(world, sensor, (pl_volume *)e->volumes.data + e->volume_count++);
+            pl_volume *made = (pl_volume *)e->volumes.data + e->volume_count++;
+            pl_fluid_volume(world, sensor, made);
+            made->restless = is_restless(world, sensor);
+        }
+        if (stirs) {
+            ((pl_keyed *)stirrers->data)[world->waves.step.stirrer_count++] =
+                (pl_keyed){ other, at, other };
+            continue;
         }
         ((uint8_t *)e->swims.data)[row] = 1;
         ((pl_keyed *)e->immersions.data)[e->immersion_count++] =
@@ -145,8 +171,17 @@ static pl_half_plane plane_now(pl_half_plane p, double w, double time, const dou
     return p;
 }
 
-void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_t piece,
-                      const double moved[3], double time, pl_contour *out, double away[2])
+// The surface near a body, as waves have it.
+static pl_half_plane surface_now(const pl_volume *v, const pl_tide *t, double level, double time)
+{
+    const double by = 1 / sqrt(1 + t->slope * t->slope);
+    const double height = level + t->height + t->rate * time - t->slope * t->at;
+    return (pl_half_plane){ -by * t->slope, by * v->up_y, by * height };
+}
+
+void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, const pl_tide *tide,
+                      uint32_t piece, const double moved[3], double time, pl_contour *out,
+                      double away[2])
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t row = world->pieces.body[piece], holder = world->pieces.body[volume->piece];
@@ -167,7 +202,11 @@ void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_
     pl_piece_convex(world, piece, &shape);
     pl_contour_of(&shape, world->pieces.cuts[piece], frame, 0, 0, out);
     for (int i = 0; i < volume->plane_count && out->count > 0; ++i) {
-        pl_contour_cut(out, plane_now(volume->planes[i], (double)b->w[holder], time, away));
+        pl_half_plane p = volume->planes[i];
+        if (tide != NULL && i == volume->top) {
+            p = surface_now(volume, tide, p.d, time - world->waves.step.dt / 2);
+        }
+        pl_contour_cut(out, plane_now(p, (double)b->w[holder], time, away));
     }
 }
 
@@ -187,7 +226,8 @@ static double lent_mass(const plumb_world *world, const pl_swimmer *s)
         }
         pl_contour contour;
         double away[2];
-        pl_fluid_contour(world, volume, all[i].value, still, 0, &contour, away);
+        pl_fluid_contour(world, volume, pl_tide_of(world, i), all[i].value, still, 0, &contour,
+                         away);
         const double area = pl_contour_area(&contour).area;
         sum += area > 0 ? (double)m->added_mass[row] * (double)m->density[row] * area : 0;
     }
@@ -196,6 +236,10 @@ static double lent_mass(const plumb_world *world, const pl_swimmer *s)
 
 static void lend(plumb_world *world, pl_swimmer *s)
 {
+    const pl_keyed *all = world->effects.immersions.data;
+    for (uint32_t i = s->first; i < s->first + s->count; ++i) {
+        s->restless |= ((const pl_volume *)world->effects.volumes.data)[all[i].order].restless;
+    }
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[s->slot];
     pl_solver_motion *motion = &pl_solver_motions(&world->solver)[s->slot];
     s->mass = 1 / (double)body->inv_mass;
@@ -218,7 +262,7 @@ bool pl_fluids_immerse(plumb_world *world)
         all[i].key = pl_key(slots[all[i].key >> 32], (uint32_t)all[i].key);
     }
     pl_sort_keyed(all, e->immersion_count);
-    if (!pl_shelter_find(world)) {
+    if (!pl_shelter_find(world) || !pl_waves_feel(world)) {
         return false;
     }
     pl_swimmer *swimmers = e->swimmers.data;
@@ -228,7 +272,8 @@ bool pl_fluids_immerse(plumb_world *world)
             ++i;
         }
         if (pl_solver_bodies(&world->solver)[slot].inv_mass > 0) { // else its time stands still
-            swimmers[e->swimmer_count] = (pl_swimmer){ slot, first, i - first, 0, 0, 0 };
+            swimmers[e->swimmer_count] =
+                (pl_swimmer){ .slot = slot, .first = first, .count = i - first };
             lend(world, &swimmers[e->swimmer_count++]);
         }
     }

@@ -5,13 +5,17 @@
 #include "geometry/immersed.h"
 #include "world/state.h"
 
+struct pl_tide; // the surface of a volume near a body (waves.h)
+
 // A piece of a sensor of a fluid that somebody is near.
 typedef struct pl_volume {
     uint32_t piece, material;  // row of the material
     double up_x, up_y;         // against gravity
     double bottom;             // [m] lowest place of the shape, upwards from the centre of its body
     double origin_x, origin_y; // [m] of its body, from the centre of that, at the start of the step
+    int top;                   // the plane against gravity, if there is one
     double grain;              // [m] over which its local flow changes; 0: it has none
+    bool restless;             // nobody falls asleep in it
     int plane_count;
     pl_half_plane
         planes[PL_HALF_PLANES_MOST]; // about the centre of its body, at the start of the step
@@ -22,6 +26,7 @@ typedef struct pl_swimmer {
     uint32_t slot, first, count; // its immersions
     double mass, inertia;        // [kg], [kg m^2] its own; 0: it does not turn
     double lent;                 // [kg] of the fluid
+    bool restless;               // it does not fall asleep there
 } pl_swimmer;
 
 // The volume that a piece of a sensor of a fluid is.
@@ -33,9 +38,11 @@ bool pl_fluids_find(plumb_world *world);
 bool pl_fluids_immerse(plumb_world *world);
 
 // The outline of what of a piece is in a volume, about its body's centre of mass, when that has moved by (dx, dy) and
-// turned by da since the step began, `time` [s] ago; *away gets the way from there to the volume's body.
-void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_t piece,
-                      const double moved[3], double time, pl_contour *out, double away[2]);
+// turned by da since the step began, `time` [s] ago; *away gets the way from there to the volume's body. tide: of the surface
+// near it; NULL: it is still.
+void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, const struct pl_tide *tide,
+                      uint32_t piece, const double moved[3], double time, pl_contour *out,
+                      double away[2]);
 
 // Across the flow, n . x from low to high [m] in the world, n the flow's direction turned by a quarter counter-clockwise: there
 // `share` of the flow is kept off.

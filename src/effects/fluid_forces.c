@@ -10,11 +10,13 @@
 // less than K = 4 M / h^2; E is what K has too much, and what is so stiff is damped as by the implicit method of first
 // order, so that nothing is too light, nor any step too long.
 //
-// Reads: solver bodies, lists of fluid.c. Writes: accelerations. Order: behind whatever else accelerates. Cost: O(edges)
+// Reads: solver bodies, lists of fluid.c. Writes: accelerations, times of rest. Order: behind whatever else accelerates. Cost: O(edges)
 // a piece in a volume and substep.
 #include "effects/fluid.h"
+#include "effects/waves.h"
 
 #include "core/quad.h"
+#include "world/island.h"
 #include "world/substep.h"
 
 #include <math.h>
@@ -31,7 +33,7 @@ typedef struct pl_pull {
 } pl_pull;
 
 typedef struct passage {
-    const plumb_world *world;
+    plumb_world *world;
     const pl_swimmer *swimmers;
     double h, time; // [s] of the middle of the substep, since the step began
 } passage;
@@ -69,9 +71,11 @@ static double excess_of(double stiffness, double mass, double h)
     return excess > 0 ? excess : 0;
 }
 
-// Buoyancy, waves, and what the surface pushes back too much.
+// Buoyancy, waves, and what the surface pushes back too much. Where there are waves they are the wave drag; what a body has done to
+// the surface since the step began, the modes know when it ends: until then it is the tide's answer.
 static void float_up(const plumb_world *world, const pl_swimmer *s, const pl_volume *volume,
-                     uint32_t row, const pl_contour *contour, pl_spin u, double h, pl_pull *pull)
+                     const pl_tide *tide, uint32_t row, const pl_contour *contour, pl_spin u,
+                     const double moved[3], double h, pl_pull *pull)
 {
     const pl_materials *m = &world->materials;
     const double density = (double)m->density[volume->material];
@@ -84,13 +88,17 @@ static void float_up(const plumb_world *world, const pl_swimmer *s, const pl_vol
         return;
     }
     add_force(pull, -density * a.area * gx, -density * a.area * gy, a.x / a.area, a.y / a.area);
+    if (tide != NULL) {
+        add_force(pull, tide->force[0], tide->force[1], 0, 0);
+        pull->force[2] += tide->force[2];
+    }
     const double ux = -gx / g, uy = -gy / g;
     const pl_waterline line = pl_contour_waterline(contour, ux, uy);
     if (!(line.width > 0)) {
         return;
     }
-    const double waves =
-        (double)m->wave_drag[volume->material] * density * a.area * sqrt(g / line.width);
+    const double drag = tide != NULL ? 0 : (double)m->wave_drag[volume->material];
+    const double waves = drag * density * a.area * sqrt(g / line.width);
     const double turns = waves * line.second / line.width, rise = u.vx * ux + u.vy * uy;
     // A side of the mean draft pushes waves as a bottom of the width does.
     const double draft = a.area / (line.width * line.width),
@@ -103,8 +111,14 @@ static void float_up(const plumb_world *world, const pl_swimmer *s, const pl_vol
     add_square(pull->resist, sways, -uy, ux);
     pull->resist[2][2] += turns;
     const double push = density * g * line.width, back = density * g * line.second;
-    const double heave = excess_of(push, s->mass + s->lent, h),
-                 roll = excess_of(back, s->inertia, h);
+    const double answer = tide != NULL ? tide->answer : 0;
+    const double heave = excess_of((1 + answer) * push, s->mass + s->lent, h),
+                 roll = excess_of((1 + answer) * back, s->inertia, h);
+    if (answer > 0) {
+        const double risen = moved[0] * ux + moved[1] * uy;
+        add_force(pull, -answer * push * risen * ux, -answer * push * risen * uy, 0, 0);
+        pull->force[2] -= answer * back * moved[2];
+    }
     add_square(pull->excess, heave, ux, uy);
     pull->excess[2][2] += roll;
     add_force(pull, -heave / h * rise * ux, -heave / h * rise * uy, 0, 0);
@@ -228,19 +242,25 @@ static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immer
     const pl_volume *volume = (const pl_volume *)world->effects.volumes.data + immersion->order;
     const pl_materials *m = &world->materials;
     const uint32_t of = volume->material, piece = immersion->value;
+    const pl_tide *tide =
+        pl_tide_of(world, (uint32_t)(immersion - (const pl_keyed *)world->effects.immersions.data));
     const double half = p->h / 2;
     const double moved[3] = { (double)body->dx + half * (double)body->vx,
                               (double)body->dy + half * (double)body->vy,
                               (double)body->da + half * (double)body->w };
     pl_contour contour;
     pl_immersed in = { .world = world, .volume = volume, .since = p->time };
-    pl_fluid_contour(world, volume, piece, moved, p->time, &contour, in.away);
+    pl_fluid_contour(world, volume, tide, piece, moved, p->time, &contour, in.away);
     if (contour.count == 0) {
         return;
     }
     const uint32_t row = world->pieces.body[piece];
     double flow[2];
     pl_spin u = against(world, volume, row, body, in.away, p->time, flow);
+    if (tide != NULL) {
+        flow[0] += tide->flow[0], u.vx -= tide->flow[0];
+        flow[1] += tide->flow[1], u.vy -= tide->flow[1];
+    }
     const pl_shadow shadow = shadow_of(world, immersion);
     if (shadow.count > 0) {
         const double x = (double)world->bodies.center_x[row] + moved[0];
@@ -260,7 +280,7 @@ static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immer
         pull->lift_y += lift * u.vy;
     }
     if (!m->weightless[of]) {
-        float_up(world, s, volume, row, &contour, u, p->h, pull);
+        float_up(world, s, volume, tide, row, &contour, u, moved, p->h, pull);
     }
 }
 
@@ -315,7 +335,7 @@ static void accelerate(const passage *p, const pl_swimmer *s, const pl_pull *pul
 static void act(void *context, uint32_t first, uint32_t count)
 {
     const passage *p = context;
-    const plumb_world *world = p->world;
+    plumb_world *world = p->world;
     const pl_keyed *all = world->effects.immersions.data;
     for (uint32_t i = first; i < first + count; ++i) {
         const pl_swimmer *s = &p->swimmers[i];
@@ -324,7 +344,11 @@ static void act(void *context, uint32_t first, uint32_t count)
         for (uint32_t k = s->first; k < s->first + s->count; ++k) {
             immerse(p, s, &all[k], body, &pull);
         }
-        accelerate(p, s, &pull, ((const uint32_t *)world->solver.rows.data)[s->slot]);
+        const uint32_t row = ((const uint32_t *)world->solver.rows.data)[s->slot];
+        accelerate(p, s, &pull, row);
+        if (s->restless) { // here, where no step is refused any more
+            world->bodies.rest_time[row] = PL_NOT_RESTING;
+        }
     }
 }
 

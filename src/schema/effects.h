@@ -33,6 +33,8 @@
     X(FLUIDS, "fluids", "sensors", "src/effects/fluid.c src/effects/fluid_forces.c src/effects/flow.c "              \
       "src/effects/local_flow.c src/effects/shelter.c src/geometry/immersed.c",                                                \
       "fluid", "volumes that lift and drag: water, wind")                                                                      \
+    X(WAVES, "waves", "fluids", "src/effects/waves.c src/effects/tides.c src/geometry/harmonics.c", "",                        \
+      "surfaces of water that bodies stir")                                                                                    \
     X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/orbits.c",            \
       "charge attraction", "forces at a distance: attractors, gravitation, zones, magnetic fields")                            \
     X(FRACTURE, "fracture", "", "src/api/breaking.c src/api/divide.c src/api/fracture.c src/api/fragments.c src/api/merge.c "  \

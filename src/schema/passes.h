@@ -80,6 +80,8 @@
       "manifolds, pairs, joints, masses", "constraints, pairs", ONE)                                                                         \
     X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
+    X("waves",               GRAPH,       IF(pl_want_waves),            ONCE(pl_run_waves),                                      ONCE,              \
+      "waves, pieces, poses, materials", "islands", ONE)                                                                                              \
     X("immersion",           GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_immersion),                                  ONCE,              \
       "pieces, poses, materials, solver bodies", "constraints, solver bodies", ONE)                                                                 \
     X("engines",           GRAPH,       IF(pl_want_engines),         ONCE(pl_run_engines),                                   ONCE,           \
@@ -112,7 +114,7 @@
     X("substep systems",   MOMENT,      ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
     X("fluid forces",        MOMENT,      IF(pl_want_fluids),           ACTS(pl_fluid_row, pl_fluid_acts_on),                    ONCE,              \
-      "solver bodies, poses, velocities, pieces, materials", "accelerations", ONE)                                                                  \
+      "solver bodies, poses, velocities, pieces, materials", "accelerations, islands", ONE)                                                                  \
     X("law forces",        MOMENT,      IF(pl_want_laws),            ACTS(pl_law_row, pl_law_acts_on),                       ONCE,           \
       "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("soft forces",       MOMENT,      IF(pl_want_softbodies),      ACTS(pl_softbodies_row, pl_softbodies_act_on),          ONCE,           \
@@ -179,6 +181,8 @@
       "", "liquid", ONE)                                                                                                                     \
     X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
       "", "air", ONE)                                                                                                                        \
+    X("wave motion",         FINISH,      IF(pl_want_waves),            ONCE(pl_run_wave_motion),                                ONCE,              \
+      "poses, pieces, materials", "waves", ONE)                                                                                                       \
     X("soft motion",       FINISH,      IF(pl_want_softbodies),      ONCE(pl_run_softbodies_motion),                         ONCE,           \
       "poses", "soft bodies, islands", ONE)                                                                                                  \
     X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \

@@ -10,6 +10,7 @@
 #include "air/air.h"
 #include "liquid/liquid.h"
 #include "softbody/softbody.h"
+#include "world/waves_list.h"
 #include "world/wrap.h"
 #include "world/rows.h"
 
@@ -310,6 +311,29 @@ static bool check_laws(const pl_suspect *s)
     return sound;
 }
 
+// Their shapes have the flag, each once, and modes follow one another.
+static bool check_waves(const pl_suspect *s)
+{
+    const pl_waves *w = &s->world.waves;
+    const pl_wave_surface *all = pl_wave_surfaces(w);
+    const double *modes = w->modes.data;
+    uint32_t at = 0;
+    bool sound = w->count == 0 || !pl_is_wrapped(&s->world);
+    for (uint32_t i = 0; i < w->count && sound; ++i) {
+        const pl_slot *slot = pl_registry_find(&s->world.registry, all[i].shape.entity);
+        sound = slot != NULL && slot->kind == PLUMB_KIND_SHAPE &&
+                (s->world.pieces.flags[slot->row] & PL_PIECE_WAVES) != 0 &&
+                pl_waves_of(&s->world, all[i].shape) == &all[i] && all[i].first == at &&
+                pl_waves_desc_is_sound(&all[i].desc);
+        at += sound ? (uint32_t)all[i].desc.modes : 0;
+    }
+    sound = sound && at == w->mode_count;
+    for (size_t i = 0; i < 2 * (size_t)w->mode_count && sound; ++i) {
+        sound = modes[i] >= -PL_WAVES_MOST && modes[i] <= PL_WAVES_MOST;
+    }
+    return sound;
+}
+
 static bool check_breaks(const plumb_world *w)
 {
     const pl_pending_break *all = w->fracture.pending.data;
@@ -344,8 +368,8 @@ bool pl_check_extras(pl_suspect *s)
         }
     }
     return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
-           check_air(w) && check_softbodies(s) && check_laws(s) && check_excluded(w) &&
-           check_breaks(w) &&
+           check_air(w) && check_softbodies(s) && check_laws(s) && check_waves(s) &&
+           check_excluded(w) && check_breaks(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

@@ -172,6 +172,11 @@
     ARRAY(plumb_orbit_desc, laws.orbits, laws.orbit_count, sizeof(plumb_orbit_desc), 0)            \
     LEFT(laws.step)
 
+#define PL_STATE_WAVES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_wave_surface, waves.items, waves.count, sizeof(pl_wave_surface), 8)                   \
+    ARRAY(plumb_wave_mode, waves.modes, waves.mode_count, sizeof(plumb_wave_mode), 0)              \
+    LEFT(waves.step)
+
 // Who is about to break; scratch; and events, which a restored world has none of.
 #define PL_STATE_FRACTURE(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
     LEFT(fracture.fragments) LEFT(fracture.parts) LEFT(fracture.children) LEFT(fracture.shapes)    \
@@ -230,7 +235,7 @@
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
     PL_STATE_AIR(__VA_ARGS__)                                                                      \
     PL_STATE_FRACTURE(__VA_ARGS__)                                                                 \
-    PL_STATE_SOFTBODIES(__VA_ARGS__) PL_STATE_LAWS(__VA_ARGS__)                                                                     \
+    PL_STATE_SOFTBODIES(__VA_ARGS__) PL_STATE_LAWS(__VA_ARGS__) PL_STATE_WAVES(__VA_ARGS__)                                                                     \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
     PL_STATE_DIAL(__VA_ARGS__)
 

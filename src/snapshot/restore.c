@@ -320,7 +320,8 @@ static bool is_counted(const pl_section *section)
         "liquid.settings",      "liquid.particles", "air.settings",     "air.cells",
         "air.sources",          "laws.items",       "laws.orbits",      "fracture.pending",
         "softbodies.items",     "softbodies.nodes", "softbodies.edges", "softbodies.bends",
-        "softbodies.triangles", "softbodies.rings", "softbodies.pins"
+        "softbodies.triangles", "softbodies.rings", "softbodies.pins",  "waves.items",
+        "waves.modes"
     };
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; ++i) {
         if (strcmp(section->name, counted[i]) == 0) {

@@ -26,6 +26,7 @@
     X(LIQUID, "liquid", "its particles")                                                           \
     X(AIR, "air", "its velocities, smoke and heat")                                                \
     X(SOFT_BODIES, "soft bodies", "their nodes and elements")                                      \
+    X(WAVES, "waves", "of surfaces of water")                                                      \
     X(CHARACTERS, "characters", "bodies that walk")                                                \
     X(SENSORS, "sensors", "what they overlap")                                                     \
     X(SOLVER_BODIES, "solver bodies", "velocities and ways of bodies in the substeps")             \

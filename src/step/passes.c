@@ -8,6 +8,7 @@
 #include "effects/engine.h"
 #include "effects/fluid.h"
 #include "effects/laws.h"
+#include "effects/waves.h"
 #include "step/quarantine.h"
 #include "world/push.h"
 #include "joints/joint.h"
@@ -129,6 +130,7 @@ TRY(pl_run_called, pl_acting_call(world))
 TRY(pl_run_clusters, pl_solver_open(world))
 TRY(pl_run_apart, find_apart(world))
 TRY(pl_run_graph, graph(world, dt))
+TRY(pl_run_waves, pl_waves_open(world, dt))
 TRY(pl_run_immersion, pl_fluids_immerse(world))
 TRY(pl_run_engines, pl_engines_find(world, dt))
 TRY(pl_run_law_slots, pl_laws_take_slots(world))

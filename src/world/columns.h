@@ -101,7 +101,7 @@ typedef struct pl_hint {
     X(uint32_t, material, ANY) /* material row */                                                   \
     X(uint64_t, category, ANY) X(uint64_t, mask, ANY) /* filter, resolved: mask 0 meets nothing */  \
     X(int32_t, group, ANY)                                                                          \
-    X(uint8_t, flags, UP_TO(63)) /* PL_PIECE_... */                                                 \
+    X(uint8_t, flags, UP_TO(127)) /* PL_PIECE_... */                                                 \
     X(real, friction, POSITIVE) X(real, restitution, POSITIVE) /* copied from the material */       \
     X(real, one_way_x, ANY) X(real, one_way_y, ANY) /* unit, in the body's frame; 0: solid from all sides */ \
     X(real, one_way_cos, ANY) X(real, one_way_angle, ANY) /* of normals that hold, about the direction */ \
@@ -128,6 +128,7 @@ typedef struct pl_hint {
 #define PL_PIECE_ONE_WAY  32u // it holds on one side only
 #define PL_PIECE_ASLEEP   8u  // of a sleeping body: it is in the list and grid of resting pieces
 #define PL_PIECE_PLACED   16u // static, and new to what sleeps here
+#define PL_PIECE_WAVES    64u // of water whose surface has waves
 
 #define PL_NONE UINT32_MAX
 #define PL_OUT  (UINT32_MAX - 1) // pieces.moving: of a disabled body, in no grid

@@ -10,6 +10,7 @@
 #include "world/softbody_list.h"
 #include "world/material_pair.h"
 #include "world/rows.h"
+#include "world/waves_list.h"
 
 // The last one fills the gap.
 pl_character *pl_character_of(const plumb_world *world, uint32_t row)
@@ -38,6 +39,7 @@ static void destroy_shape(plumb_world *world, plumb_shape shape)
     uint32_t first = pl_shape_piece(world, shape);
     uint32_t row = world->pieces.body[first];
     pl_sleep_disturb(world, row);
+    pl_waves_forget(world, shape);
     pl_pieces_remove(world, first);
     pl_registry_release(&world->registry, shape.entity);
     pl_mass_revise(world, row);
@@ -51,6 +53,7 @@ static void destroy_body(plumb_world *world, plumb_body body)
     pl_sleep_forget(world, row);
     while (world->bodies.first_piece[row] != PL_NONE) {
         plumb_shape shape = world->pieces.shape[world->bodies.first_piece[row]];
+        pl_waves_forget(world, shape);
         pl_pieces_remove(world, world->bodies.first_piece[row]);
         pl_registry_release(&world->registry, shape.entity);
     }

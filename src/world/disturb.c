@@ -45,7 +45,7 @@ static void wake_seen(plumb_world *world, const pl_buffer *overlaps, uint32_t co
     }
 }
 
-static void wake_swimmers(plumb_world *world, uint32_t piece)
+void pl_sleep_wake_swimmers(plumb_world *world, uint32_t piece)
 {
     const pl_sensing *s = &world->sensing;
     if ((world->pieces.flags[piece] & PL_PIECE_SENSOR) != 0 &&
@@ -72,7 +72,7 @@ void pl_sleep_stir(plumb_world *world, uint32_t row)
         note_immovable(world, row);
         for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
             wake_contacts(world, p);
-            wake_swimmers(world, p);
+            pl_sleep_wake_swimmers(world, p);
         }
     }
 }
@@ -100,7 +100,7 @@ void pl_sleep_disturb_piece(plumb_world *world, uint32_t piece)
     } else {
         note_immovable(world, row);
         wake_contacts(world, piece);
-        wake_swimmers(world, piece);
+        pl_sleep_wake_swimmers(world, piece);
     }
 }
 
@@ -119,7 +119,7 @@ void pl_sleep_disturb_all(plumb_world *world)
 void pl_sleep_void_contacts(plumb_world *world, uint32_t piece)
 {
     wake_contacts(world, piece);
-    wake_swimmers(world, piece);
+    pl_sleep_wake_swimmers(world, piece);
     pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
     for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
         all[c].fixed = PL_NONE;

@@ -31,6 +31,7 @@
 #include "world/tables/solver.h"
 #include "world/tables/step.h"
 #include "world/tables/watchdog.h"
+#include "world/tables/waves.h"
 #include "world/component.h"
 
 // A size class of the vertex pool holds runs of 4, 8 or 16 corners.
@@ -129,6 +130,7 @@ struct plumb_world {
     pl_air air;
     pl_softbodies softbodies;
     pl_laws laws;
+    pl_waves waves;
     pl_fracture fracture;
     pl_schedule schedule;
     pl_quarantine quarantine;

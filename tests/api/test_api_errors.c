@@ -174,6 +174,10 @@ static void masses_are_refused(void **state)
             plumb_body_set_user_data(W, NO_BODY, NULL));
     REFUSED(E_NOT_FINITE, "plumb_world_set_gravity: gravity is (nan, 0); it must be finite",
             plumb_world_set_gravity(W, plumb_v2(NAN_, 0)));
+    REFUSED(E_NOT_FINITE, "plumb_world_set_time: time is nan; it must be finite",
+            plumb_world_set_time(W, (double)NAN_));
+    REFUSED(E_RANGE, "plumb_world_set_time: time is -1; it must be 0 to 1e12",
+            plumb_world_set_time(W, -1));
     REFUSED(E_RANGE, "plumb_world_step: dt is 2; it must be 0 to 1", plumb_world_step(W, 2));
     REFUSED(E_RANGE, "plumb_world_step: dt is -0.01; it must be 0 to 1",
             plumb_world_step(W, R(-0.01)));
@@ -553,6 +557,7 @@ static void a_null_world_is_refused_everywhere(void **state)
     const plumb_result results[] = {
         plumb_world_step(NULL, 1),
         plumb_world_set_gravity(NULL, v),
+        plumb_world_set_time(NULL, 0),
         plumb_body_destroy(NULL, (plumb_body){ e }),
         plumb_body_teleport(NULL, (plumb_body){ e }, v, 0),
         plumb_body_set_velocity(NULL, (plumb_body){ e }, v),

@@ -592,6 +592,35 @@ static void change_air(session *s)
     }
 }
 
+// Water with waves, made and taken away; worlds that wrap refuse it.
+static void change_waves(session *s)
+{
+    plumb_world *w = s->world;
+    plumb_shape shape;
+    const plumb_wave_mode splash[2] = { { 0.05, 0.1 }, { -0.1, 0.2 } };
+    if (plumb_world_waves(w, &shape, 1) > 0) {
+        if (one_in(s, 2)) {
+            plumb_body_destroy(w, plumb_shape_body(w, shape));
+        } else if (one_in(s, 2)) {
+            plumb_waves_set(w, shape, &(plumb_waves_desc){ .modes = 1 + (int)pick(s, 20) });
+        } else {
+            plumb_waves_set_modes(w, shape, splash, one_in(s, 2) ? 1 : 0);
+        }
+        return;
+    }
+    const plumb_material m =
+        plumb_material_create(w, &(plumb_material_desc){ .density = 900, .fluid = true });
+    const plumb_body holder = plumb_body_create(
+        w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = place(s, -2, 2, -1, 1) });
+    shape = plumb_shape_create(
+        w, holder,
+        &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 3, 1 }, .sensor = true, .material = m });
+    plumb_waves_create(w, shape,
+                       &(plumb_waves_desc){ .modes = 1 + (int)pick(s, 30),
+                                            .swell = one_in(s, 2) ? R(0.05) : 0,
+                                            .no_damping = one_in(s, 3) });
+}
+
 // Ropes between a body and a place, jelly, skins: made, cut, taken away. Worlds that wrap refuse them.
 static void change_softbodies(session *s)
 {
@@ -662,7 +691,7 @@ static void change_world(session *s)
 {
     plumb_world *w = s->world;
     uint32_t m = pick(s, SESSION_MATERIALS);
-    switch (pick(s, 12)) {
+    switch (pick(s, 13)) {
     case 0:
         plumb_world_set_gravity(w, place(s, -2, 2, -12, 0));
         break;
@@ -702,6 +731,9 @@ static void change_world(session *s)
         break;
     case 10:
         change_softbodies(s);
+        break;
+    case 11:
+        change_waves(s);
         break;
     default:
         plumb_commands_apply(w);

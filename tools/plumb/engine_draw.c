@@ -187,6 +187,9 @@ static bool add_shapes(const engine_stage *stage, int count, shape_role role, pl
             if (added++ == 0) {
                 render_body_begin(frame, style);
             }
+            if (role == ROLE_FLUID && pl_stage_add_waves(stage, stage->shapes[i], where, frame)) {
+                continue;
+            }
             add_shape(stage->world, stage->shapes[i], where, frame,
                       is_static && role == ROLE_SOLID);
             if (role == ROLE_FLUID) {

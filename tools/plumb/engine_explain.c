@@ -78,6 +78,8 @@ static const struct reason {
     { "orbits", MOVING, SAME },
     { "called", NOBODY, BODIES },
     { "graph", SOLID, BODIES },
+    { "waves", FLUIDS, NO_ROWS },
+    { "wave motion", FLUIDS, IMMERSED },
     { "immersion", FLUIDS, IMMERSED },
     { "engines", THRUSTING, SAME },
     { "burning", THRUSTING, SAME },

@@ -99,6 +99,9 @@ int pl_stage_palette(const scene_body *body, int i);
 /// Parts of pl_stage_draw: joints that are not hidden; of `shapes` those that run.
 void pl_stage_add_joints(const engine_stage *stage, struct render_frame *frame);
 plumb_aabb pl_stage_softbody_box(const engine_stage *stage, plumb_softbody body); ///< of its nodes
+/// Water whose surface has waves; false: the shape has none.
+bool pl_stage_add_waves(const engine_stage *stage, plumb_shape shape, plumb_transform where,
+                        struct render_frame *frame);
 /// Adds all soft bodies to a draw list. False when out of memory.
 bool pl_stage_add_softbodies(const engine_stage *stage, struct render_frame *frame);
 void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes, int count,

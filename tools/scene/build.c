@@ -21,6 +21,7 @@ static void make_world(scene *s, const sc_site *site)
     if (result != PLUMB_OK) {
         sc_refused(s, site, NULL, result, "the world could not be made");
     }
+    plumb_world_set_time(s->world, s->start_time); // gusts and swell go on
 }
 
 void sc_build_settings(scene *s, const sc_site *site, int table)

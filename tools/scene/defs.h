@@ -222,6 +222,19 @@ typedef struct sc_air_def {
     bool cells, hidden;
 } sc_air_def;
 
+/// waves{}
+typedef struct sc_waves_def {
+    uint64_t present;
+    char body[SC_NAME_SIZE];
+    double modes, damping, height, swell, swell_length;
+    bool state;
+} sc_waves_def;
+
+typedef struct sc_waves {
+    sc_waves_def def;
+    plumb_shape shape;
+} sc_waves;
+
 /// air_source{}
 typedef struct sc_source_def {
     uint64_t present;

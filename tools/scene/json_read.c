@@ -169,10 +169,10 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "air",    "bodies",     "camera",  "excluded",
-                                         "expect", "format",     "joints",  "laws",
-                                         "liquid", "materials",  "orbits",  "pairs",
-                                         "scene",  "softbodies", "sources", "time" };
+    static const char *const names[] = { "air",    "bodies", "camera", "excluded",   "expect",
+                                         "format", "joints", "laws",   "liquid",     "materials",
+                                         "orbits", "pairs",  "scene",  "softbodies", "sources",
+                                         "time",   "waves" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -421,6 +421,12 @@ void sc_json_load(scene *s)
     for (const cJSON *item = elements(s, root, "sources"); item != NULL; item = item->next, i++) {
         snprintf(path, sizeof path, "sources[%d]", i);
         make(s, item, "air_source", path, sc_build_source);
+        lua_settop(L, 1);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "waves"); item != NULL; item = item->next, i++) {
+        snprintf(path, sizeof path, "waves[%d]", i);
+        make(s, item, "waves", path, sc_build_waves);
         lua_settop(L, 1);
     }
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(root, "camera");

@@ -192,6 +192,20 @@ static void write_cells(sc_json_writer *w)
     fputs("\n]", w->file);
 }
 
+// A mode a line: height, rate.
+static void write_modes(sc_json_writer *w, const sc_waves *waves)
+{
+    int count;
+    const plumb_wave_mode *modes = plumb_waves_modes(w->s->world, waves->shape, &count);
+    fputc('[', w->file);
+    for (int i = 0; i < count; i++) {
+        const double numbers[2] = { modes[i].height, modes[i].rate };
+        fputs(i > 0 ? ",\n" : "\n", w->file);
+        write_numbers(w, numbers, 2, false);
+    }
+    fputs("\n]", w->file);
+}
+
 const char *sc_json_name_of(const scene *s, plumb_body body)
 {
     const sc_body *b = sc_body_of(s, body);
@@ -337,6 +351,8 @@ static void write_value(sc_json_writer *w, const sc_field *row, const void *def,
             write_pins(w, from->soft);
         } else if (from->soft != NULL) {
             write_soft_rows(w, row->name, from->soft);
+        } else if (from->waves != NULL) {
+            write_modes(w, from->waves);
         } else if (strcmp(row->name, "cells") == 0) {
             write_cells(w);
         } else {

@@ -253,6 +253,24 @@ static void write_laws(sc_json_writer *w)
     fputs(any ? "\n],\n" : "", w->file);
 }
 
+// As they are now: mode by mode.
+static void write_waves(sc_json_writer *w)
+{
+    const scene *s = w->s;
+    bool any = false;
+    for (int i = 0; i < s->waves.count; i++) {
+        const sc_waves *waves = &s->waves.items[i];
+        sc_waves_def d = waves->def;
+        if (plumb_waves_modes(s->world, waves->shape, NULL) != NULL) {
+            fputs(any ? ",\n" : ",\n\"waves\":[\n", w->file);
+            SC_MARK(&sc_list_waves, &d, sc_waves_def, state, true);
+            sc_json_object(w, &sc_list_waves, &d, NULL, &(sc_json_origin){ .waves = waves });
+            any = true;
+        }
+    }
+    fputs(any ? "\n]" : "", w->file);
+}
+
 bool scene_to_json(const scene *s, FILE *file)
 {
     sc_json_writer w = { .s = s, .file = file };
@@ -288,6 +306,7 @@ bool scene_to_json(const scene *s, FILE *file)
     write_sources(&w);
     fputs("\"time\":", file);
     sc_json_number(&w, scene_time(s), false);
+    write_waves(&w);
     fputs("}\n", file);
     return ferror(file) == 0;
 }

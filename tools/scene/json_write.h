@@ -18,6 +18,7 @@ typedef struct sc_json_origin {
     bool is_state; ///< the world, as reals; else the author, whose numbers fit both precisions
     const sc_body *body; ///< the body that is being written: its shapes are not in its definition
     const plumb_softbody_desc *soft; ///< the soft body
+    const sc_waves *waves;           ///< the surface
 } sc_json_origin;
 
 extern const sc_json_origin sc_json_as_said;

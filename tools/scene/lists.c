@@ -262,6 +262,19 @@ static const sc_field air_rows[] = {
 const sc_list sc_list_air = { "air", air_rows, COUNT(air_rows) };
 #undef T
 
+#define T sc_waves_def
+static const sc_field waves_rows[] = {
+    { "body",         SC_BODY,    AT(T, body),         0, 0, NULL, 0, SC_REQUIRED },
+    { "damping",      SC_NUMBER,  AT(T, damping),      0, 1000, "1/s", 0, 0 },
+    { "height",       SC_NUMBER,  AT(T, height),       0, 1e6, "m", 0, SC_ABOVE },
+    { "modes",        SC_INTEGER, AT(T, modes),        1, 512, "1", 0, 0 },
+    { "state",        SC_TABLE,   AT(T, state),        0, 0, NULL, 0, 0 },
+    { "swell",        SC_NUMBER,  AT(T, swell),        0, 1000, "m", 0, 0 },
+    { "swell_length", SC_NUMBER,  AT(T, swell_length), -1e6, 1e6, "m", 0, 0 },
+};
+const sc_list sc_list_waves = { "waves", waves_rows, COUNT(waves_rows) };
+#undef T
+
 #define T sc_source_def
 static const sc_field source_rows[] = {
     { "at",     SC_VEC2,   AT(T, at),     -1e6, 1e6, "m", 0, 0 },
