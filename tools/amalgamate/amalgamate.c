@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SOURCES_MOST 512
+#define SOURCES_MOST 1024
 
 static source sources[SOURCES_MOST]; // headers too, in order of reading
 static int source_count;
