@@ -41,7 +41,8 @@ void pl_waves_free(pl_memory *memory, pl_waves *w)
 {
     pl_buffer *buffers[] = { &w->items,         &w->modes,        &w->step.basins,
                              &w->step.midway,   &w->step.tides,   &w->step.order,
-                             &w->step.stirrers, &w->step.spectra, &w->step.soundings };
+                             &w->step.stirrers, &w->step.spectra, &w->step.soundings,
+                             &w->step.swings };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -221,15 +222,24 @@ bool pl_waves_are_lively(const plumb_world *world, uint32_t piece)
            speed_of(world, surface, &basin) > LIVELY * (double)world->desc.sleep_speed;
 }
 
-static void turn_modes(const pl_basin *basin, int count, double time, plumb_wave_mode *modes)
+static void set_swings(const pl_basin *basin, int count, double half, pl_wave_swing *out)
 {
     for (int n = 0; n < count; ++n) {
-        const double omega = pl_wave_omega(basin, PI / basin->width * (n + 1));
+        pl_wave_swing *s = &out[n];
+        s->k = PI / basin->width * (n + 1);
+        s->omega = pl_wave_omega(basin, s->k);
+        pl_sincos(s->omega * half, &s->sine, &s->cosine);
+    }
+}
+
+// By half a step.
+static void turn_modes(const pl_wave_swing *swings, int count, plumb_wave_mode *modes)
+{
+    for (int n = 0; n < count; ++n) {
+        const pl_wave_swing *s = &swings[n];
         const plumb_wave_mode m = modes[n];
-        double s, c;
-        pl_sincos(omega * time, &s, &c);
-        modes[n].height = c * m.height + s / omega * m.rate;
-        modes[n].rate = c * m.rate - s * omega * m.height;
+        modes[n].height = s->cosine * m.height + s->sine / s->omega * m.rate;
+        modes[n].rate = s->cosine * m.rate - s->sine * s->omega * m.height;
     }
 }
 
@@ -240,6 +250,7 @@ bool pl_waves_open(plumb_world *world, real dt)
     const size_t bytes = w->mode_count * sizeof(plumb_wave_mode);
     if (!pl_buffer_reserve(&world->memory, &s->basins, w->count * sizeof(pl_basin)) ||
         !pl_buffer_reserve(&world->memory, &s->soundings, sizeof(pl_soundings)) ||
+        !pl_buffer_reserve(&world->memory, &s->swings, w->mode_count * sizeof(pl_wave_swing)) ||
         !pl_buffer_reserve(&world->memory, &s->midway, bytes)) {
         return false;
     }
@@ -253,8 +264,9 @@ bool pl_waves_open(plumb_world *world, real dt)
         if (!b->stands) {
             continue;
         }
-        turn_modes(b, surface->desc.modes, s->dt / 2,
-                   (plumb_wave_mode *)s->midway.data + surface->first);
+        pl_wave_swing *swings = (pl_wave_swing *)s->swings.data + surface->first;
+        set_swings(b, surface->desc.modes, s->dt / 2, swings);
+        turn_modes(swings, surface->desc.modes, (plumb_wave_mode *)s->midway.data + surface->first);
     }
     return true;
 }
@@ -285,15 +297,15 @@ static void stir(plumb_world *world, const pl_tide *tide)
     }
 }
 
-static void fade_and_break(const pl_basin *basin, const plumb_waves_desc *desc, double dt,
+static void fade_and_break(const pl_wave_swing *swings, const plumb_waves_desc *desc, double dt,
                            plumb_wave_mode *modes)
 {
     const double left = pl_decay_of((double)desc->damping * dt).left;
     for (int n = 0; n < desc->modes; ++n) {
-        const double k = PI / basin->width * (n + 1), omega = pl_wave_omega(basin, k);
+        const pl_wave_swing *swing = &swings[n];
         plumb_wave_mode *m = &modes[n];
-        const double rate = m->rate / omega;
-        const double high = k * sqrt(m->height * m->height + rate * rate);
+        const double rate = m->rate / swing->omega;
+        const double high = swing->k * sqrt(m->height * m->height + rate * rate);
         const double share = high > STEEPEST ? left * STEEPEST / high : left;
         // What was flung out of the world leaves no wave.
         const bool sound = high < FLUNG && fabs(m->rate) < FLUNG && fabs(m->height) < FLUNG;
@@ -320,8 +332,9 @@ plumb_result pl_run_wave_motion(plumb_world *world, plumb_real dt)
         const pl_basin *b = &pl_basins(world)[i];
         plumb_wave_mode *modes = (plumb_wave_mode *)s->midway.data + surface->first;
         if (b->stands) {
-            turn_modes(b, surface->desc.modes, s->dt / 2, modes);
-            fade_and_break(b, &surface->desc, s->dt, modes);
+            const pl_wave_swing *swings = (const pl_wave_swing *)s->swings.data + surface->first;
+            turn_modes(swings, surface->desc.modes, modes);
+            fade_and_break(swings, &surface->desc, s->dt, modes);
             if (world->asleep_count > 0 && pl_waves_are_lively(world, b->piece)) {
                 pl_sleep_wake_swimmers(world, b->piece);
             }

@@ -18,6 +18,12 @@ typedef struct pl_basin {
     bool stands;         // there are waves; else it is still
 } pl_basin;
 
+// How a mode swings in half a step.
+typedef struct pl_wave_swing {
+    double k, omega;     // [rad/m], [rad/s]
+    double cosine, sine; // of omega dt / 2
+} pl_wave_swing;
+
 // The surface near a body is the line height + slope (x - at) + rate t', with x from the centre of the volume's body, heights from
 // the still surface and t' from the middle of the step.
 typedef struct pl_tide {

@@ -35,16 +35,19 @@ static void add(plumb_world *world)
     if (is("targets")) {
         plumb_body lift = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 5);
         must(world, plumb_body_set_target(world, lift, (plumb_vec2){ 30, 9 }, 0, 10) == PLUMB_OK);
-    } else if (is("sensors") || is("fluids")) {
+    } else if (is("sensors") || is("fluids") || is("waves")) {
         plumb_material water = PLUMB_NULL_INIT;
-        if (is("fluids")) {
+        if (!is("sensors")) {
             water = plumb_material_create(
                 world, &(plumb_material_desc){ .fluid = true, .density = R(0.5) });
         }
-        plumb_shape_create(
+        const plumb_shape pool = plumb_shape_create(
             world, body_at(world, (plumb_body_desc){ .type = PLUMB_STATIC }, 0, 1),
             &(plumb_shape_desc){
                 .kind = PLUMB_BOX, .half = { 2, 1 }, .sensor = true, .material = water });
+        if (is("waves")) {
+            must(world, plumb_waves_create(world, pool, &(plumb_waves_desc){ 0 }) == PLUMB_OK);
+        }
     } else if (is("laws")) {
         must(world,
              !plumb_is_null(plumb_law_create(world, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR,

@@ -41,7 +41,8 @@ printf '%-12s %10s %10s %14s %14s %8s %14s\n' effect "B without" "B of it" "a st
 for effect in $effects; do
     without="all -$effect"
     case $effect in # who needs it goes along
-    sensors) without="$without -fluids" ;;
+    sensors) without="$without -fluids -waves" ;;
+    fluids) without="$without -waves" ;;
     liquid) without="$without -air" ;;
     joints | pgs) without="$without -exact -tolerance" ;;
     exact) without="$without -tolerance" ;;

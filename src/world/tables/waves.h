@@ -15,6 +15,7 @@ typedef struct pl_wave_surface {
 typedef struct pl_waves_step {
     pl_buffer basins;  // pl_basin a surface
     pl_buffer midway;  // plumb_wave_mode: of the middle of the step
+    pl_buffer swings;  // pl_wave_swing a mode
     pl_buffer tides;   // pl_tide an immersion; then those of who only stirs
     pl_buffer spectra; // pl_spectrum: of each tide that has one
     pl_buffer soundings; // pl_soundings: scratch of one tide

@@ -89,6 +89,7 @@ static void refusals(void)
     refused(w, "restitution",
             MADE(plumb_material_create, (plumb_material_desc){ .restitution = 1 }));
     refused(w, "fluids", MADE(plumb_material_create, (plumb_material_desc){ .fluid = true }));
+    refused(w, "waves", plumb_waves_create(w, shape, &(plumb_waves_desc){ 0 }) == PLUMB_OK);
     refused(w, "sensors", plumb_shape_set_sensor(w, shape, true) == PLUMB_OK);
     refused(w, "laws", MADE(plumb_law_create, (plumb_law_desc){ .vector = { 1, 0 } }));
     refused(w, "laws", MADE(plumb_body_create, (plumb_body_desc){ .charge = 1 }));
