@@ -5,9 +5,10 @@
 // act and half a step behind it. Bodies push water aside: with psi the mode's function of place, Green's identity gives
 //     d height / dt = rate + 2 / width d s / dt,   s = integral of psi over what is immersed,
 // exact for a body that is small beside the wave and for a long wave under any: a heaving one of breadth B sends out
-// waves of k B times its own amplitude (Ursell 1949). Water that goes along with a body is not pushed aside: s is that of the body's
-// way against the water. What the fluid lends a body moves on its own account, as a dipole (Batchelor, 6.4). Mode 0, the mean
-// level, is left out. Steeper than k a = 0.44 waves break (Stokes).
+// waves of k B times its own amplitude (Ursell 1949). Water that goes along with a body is not pushed aside: from that of the
+// body's way goes the dipole of the water's, and what the fluid lends the body adds to both (Batchelor, 6.4). The force on the body is
+// the same function's derivative (tides.c), so that waves get what the body loses. Mode 0, the mean level, is left out. Steeper
+// than k a = 0.44 waves break (Stokes).
 //
 // Reads: pieces, poses, tides. Writes: modes. Order: "waves" before "immersion"; "wave motion" behind all that
 // moves bodies. Cost: O(modes) a surface; O(modes corners) a tide.
