@@ -145,14 +145,14 @@ pl_spectrum pl_soundings_next(pl_soundings *s)
     };
 }
 
-void pl_tide_sound(const plumb_world *world, const pl_tide *tide, const double moved[3],
-                   pl_soundings *out, double away[2])
+void pl_tide_sound(const plumb_world *world, const pl_tide *tide, pl_soundings *out, double away[2])
 {
+    static const double still[3] = { 0, 0, 0 };
     const pl_basin *basin = &pl_basins(world)[tide->basin];
     pl_volume volume;
     pl_contour contour;
     pl_fluid_volume(world, basin->piece, &volume);
-    pl_fluid_contour(world, &volume, tide, tide->piece, moved, world->waves.step.dt / 2, &contour,
+    pl_fluid_contour(world, &volume, tide, tide->piece, still, world->waves.step.dt / 2, &contour,
                      away);
     const pl_depths where = depths_of(basin, tide, away);
     sound(&contour, &where, PI / basin->width, out);

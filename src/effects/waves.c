@@ -281,9 +281,8 @@ static void stir(plumb_world *world, const pl_tide *tide)
     plumb_wave_mode *modes = (plumb_wave_mode *)s->midway.data + surface->first;
     const pl_spectrum *before = (const pl_spectrum *)s->spectra.data + tide->spectrum;
     pl_soundings *soundings = s->soundings.data;
-    static const double still[3] = { 0, 0, 0 };
     double away[2];
-    pl_tide_sound(world, tide, still, soundings, away);
+    pl_tide_sound(world, tide, soundings, away);
     // What moves along with the body does as the body does against the water; so does the body itself as a dipole.
     const double c = basin->added, way[2] = { tide->away[0] - away[0], tide->away[1] - away[1] };
     const double dx = c * way[0] - (1 + c) * tide->flow[0] * s->dt;

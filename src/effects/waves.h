@@ -74,16 +74,15 @@ bool pl_waves_are_lively(const plumb_world *world, uint32_t piece);
 bool pl_waves_open(plumb_world *world, real dt);
 // What immersed bodies feel, once immersions have their order. False when out of memory.
 bool pl_waves_feel(plumb_world *world);
-// The outline of what of a tide's body is below the tide's line when it is `moved` from where it is, mode by mode; away:
-// pl_fluid_contour.
+// The outline of what of a tide's body is below the tide's line where it is now, mode by mode; away: pl_fluid_contour.
 typedef struct pl_soundings {
     pl_harmonics here, mirrored;
     double left, power; // exp(-2 k depth) of the first mode, of this one
     bool shallow;       // waves feel the bottom
 } pl_soundings;
 
-void pl_tide_sound(const plumb_world *world, const pl_tide *tide, const double moved[3],
-                   pl_soundings *out, double away[2]);
+void pl_tide_sound(const plumb_world *world, const pl_tide *tide, pl_soundings *out,
+                   double away[2]);
 // Of mode 1, 2, 3, ...
 pl_spectrum pl_soundings_next(pl_soundings *soundings);
 
