@@ -1,7 +1,7 @@
 /// liquid.h - water that flows: particles that carry mass, a grid that keeps their volume.
 ///
 ///     plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = 0.05f });
-///     plumb_liquid_add_box(world, (plumb_vec2){ 0, 0 }, (plumb_vec2){ 2, 1 }, (plumb_vec2){ 0, 0 });
+///     plumb_liquid_add_box(world, (plumb_vec2){ 0, 0 }, (plumb_vec2){ 2, 1 }, NULL);
 ///     for (;;) {
 ///         plumb_world_step(world, 1.0f / 60);
 ///         int count;
@@ -13,7 +13,16 @@
 /// its one system of pressures, so that a body of a thousandth of its density is as stable as a heavy one.
 /// Shapes without area, and those thinner than a cell (two spacings), hold it back as walls do.
 /// Particles on their own, fewer than 24 in tiles of 16 x 16 cells with no body near, fly as points.
-/// The world must not wrap around. Nothing of it is done in a world without a liquid.
+///
+/// It may have phases, liquids that do not mix: oil on water.
+///
+///     plumb_liquid_set_phases(world, &(plumb_liquid_phase){ .density = 800, .viscosity = 0.1f }, 1);
+///     plumb_liquid_add_box(world, (plumb_vec2){ 0, 1 }, (plumb_vec2){ 2, 1.5f }, &(plumb_particle){ .phase = 1 });
+///
+/// Where phases of different density share a cell they part: a particle is a drop of its size, which rises or sinks at
+/// its terminal velocity. All have one velocity at a place, so two that stream past one another rub within a cell or two.
+///
+/// The world must not wrap around. Nothing of it is done in a world without a liquid, nor of phases where there is one.
 #ifndef PLUMB_LIQUID_H
 #define PLUMB_LIQUID_H
 
@@ -33,12 +42,23 @@ typedef struct plumb_liquid_desc {
     plumb_real viscosity;
 } plumb_liquid_desc;
 
-/// A particle: spacing^2 of area.
+/// Most phases beside the first.
+#define PLUMB_LIQUID_MAX_PHASES 7
+
+/// Another liquid in the same world: one that does not mix with the first. {0} is valid: water.
+typedef struct plumb_liquid_phase {
+    plumb_real density;   ///< [kg/m^2] a thousandth to a thousand times the first's; 0 means 1000
+    plumb_real viscosity; ///< [Pa s] 0..1e9, as of plumb_liquid_desc
+} plumb_liquid_phase;
+
+/// A particle: spacing^2 of area. {0} is water at rest.
 typedef struct plumb_particle {
     plumb_vec2 position; ///< [m]
     plumb_vec2 velocity; ///< [m/s]
     /// [1/s] how velocity changes around it: of its x component along x and y, then of its y component
     plumb_real gradient[4];
+    uint32_t phase; ///< 0: what plumb_liquid_desc says; from 1: of plumb_liquid_set_phases
+    uint32_t tag;   ///< yours: carried along, never read. A dye, for example
 } plumb_particle;
 
 /// Gives the world a liquid without any particle yet. `desc` may be null (= {0}). Errors: E_NULL, E_RANGE,
@@ -50,31 +70,45 @@ PLUMB_API plumb_result plumb_liquid_destroy(plumb_world *world);
 /// The settings in force, defaults resolved. Errors: E_NULL, E_STATE (there is no liquid).
 PLUMB_API plumb_result plumb_liquid_settings(const plumb_world *world, plumb_liquid_desc *desc);
 /// Changes density and viscosity from the next step on; `spacing` must be 0 or what it is. `desc` may be null
-/// (= {0}). Errors: as plumb_liquid_create; E_STATE also for another spacing.
+/// (= {0}). Errors: as plumb_liquid_create; E_STATE also for another spacing; E_RANGE also for a density that is not
+/// within a thousandth to a thousand times that of each phase.
 PLUMB_API plumb_result plumb_liquid_set(plumb_world *world, const plumb_liquid_desc *desc);
+/// What particles of the phases 1 to `count` are, from the next step on; 0..PLUMB_LIQUID_MAX_PHASES. Costs in steps with
+/// several densities or viscosities about a third more. Errors: E_NULL, E_STATE (there is no liquid; particles have a
+/// phase beyond `count`), E_RANGE, E_NOT_FINITE, E_MEMORY, E_LOCKED; then nothing changes.
+PLUMB_API plumb_result plumb_liquid_set_phases(plumb_world *world, const plumb_liquid_phase *phases,
+                                               int count);
+/// The phases from 1 on, defaults resolved, and how many (`count` may be null). Valid until they are set, or the
+/// liquid is destroyed. Null without any, or without a world.
+PLUMB_API const plumb_liquid_phase *plumb_liquid_phases(const plumb_world *world, int *count);
 
 /// Adds `count` particles as they are: positions [m], |x|, |y| <= 1e9 and at most 2^29 cells from 0, velocities [m/s] up
 /// to 1e6, gradients up to 1e9. They should lie a spacing apart; those inside of shapes are pushed out. Errors: E_NULL,
-/// E_STATE (there is no liquid), E_RANGE (also: more than PLUMB_LIQUID_MAX), E_NOT_FINITE, E_MEMORY, E_LOCKED; then none
-/// is added.
+/// E_STATE (there is no liquid), E_RANGE (also: more than PLUMB_LIQUID_MAX, no such phase), E_NOT_FINITE, E_MEMORY, E_LOCKED;
+/// then none is added.
 PLUMB_API plumb_result plumb_liquid_add(plumb_world *world, const plumb_particle *particles,
                                         int count);
 /// Fills a box from `low` to `high` [m] with particles: the places of the lattice of multiples of the spacing plus one half
-/// that lie in it. A box that is a multiple of cells (two spacings) wide is filled to its edges. Errors: as
-/// plumb_liquid_add; E_RANGE where `low` is not below `high`.
+/// that lie in it. A box that is a multiple of cells (two spacings) wide is filled to its edges. All are as `like`, which
+/// may be null (= {0}), but for their places. Errors: as plumb_liquid_add; E_RANGE where `low` is not below `high`.
 PLUMB_API plumb_result plumb_liquid_add_box(plumb_world *world, plumb_vec2 low, plumb_vec2 high,
-                                            plumb_vec2 velocity);
+                                            const plumb_particle *like);
 /// Fills a closed outline of `count` points [m], 3..256 in order, concave or not, in the same lattice. Errors: as
 /// plumb_liquid_add.
 PLUMB_API plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points,
-                                              int count, plumb_vec2 velocity);
+                                              int count, const plumb_particle *like);
 /// Keeps an outline full: as plumb_liquid_add_shape, but only at places from which every particle is a spacing off, or nearly,
 /// along x or y. Called before each step it is a source: a jet with a velocity, a spring without. Errors: the same.
 PLUMB_API plumb_result plumb_liquid_refill(plumb_world *world, const plumb_vec2 *points, int count,
-                                           plumb_vec2 velocity);
+                                           const plumb_particle *like);
 /// Removes the particles in a box [m]; the others keep their order. Returns how many were removed; -1 on error: E_NULL,
 /// E_STATE, E_RANGE (low above high), E_NOT_FINITE, E_LOCKED.
 PLUMB_API int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high);
+
+/// Particles of phase `from` in a box [m] are of phase `to` from now on: wax that is heated, or freezes. Returns how many;
+/// -1 on error: as plumb_liquid_remove; E_RANGE also where there is no such phase.
+PLUMB_API int plumb_liquid_change_phase(plumb_world *world, plumb_vec2 low, plumb_vec2 high,
+                                        int from, int to);
 
 /// All particles, in the order in which they were added, and how many (`count` may be null). Valid until the next
 /// step, or change of the liquid. Null without any, or without a world.

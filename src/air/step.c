@@ -105,18 +105,6 @@ static bool is_still(const plumb_world *world)
 
 //---- a part of the step --------------------------------------------------------------------------
 
-// Faces that bodies close go by so much faster.
-static void add_speeds(pl_liquid_grid *g, double (*more)[3])
-{
-    for (uint32_t i = 0; i < g->link_count; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        const double *m = more[link->body];
-        const double speed = m[link->upright ? 1 : 0] + m[2] * (double)link->arm;
-        near_real *to = link->upright ? &g->solid_v[link->cell] : &g->solid_u[link->cell];
-        *to += link->part * (near_real)pl_liquid_held(speed, PL_LIQUID_SPEED);
-    }
-}
-
 static void note_bodies(const pl_liquid_grid *g, double (*out)[3])
 {
     for (uint32_t i = 0; i < g->body_count; ++i) {
@@ -174,19 +162,15 @@ static bool run_half(const part *p, double dt)
         (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS) * sizeof(near_real);
     const double amount = (double)p->d->viscosity * dt / (p->h * p->h);
     pl_air_carry_velocities(s, p->d, p->world->tasks, dt, p->h);
-    note_bodies(g, p->gain);
     pl_air_drive(p->world, s, dt);
-    find_gain(g, p->gain);
-    add_speeds(g, p->gain);
+    pl_liquid_follow_bodies(g);
     pl_air_to_grid(s);
     if (amount > 0) {
         g->drag = p->push;
-        note_bodies(g, p->gain);
         if (!pl_liquid_diffuse(memory, &s->liquid, amount)) {
             return false;
         }
-        find_gain(g, p->gain);
-        add_speeds(g, p->gain);
+        pl_liquid_follow_bodies(g);
         pl_air_from_grid(s);
     }
     memcpy(s->now, s->u, bytes);
@@ -199,7 +183,7 @@ static bool run_half(const part *p, double dt)
     pl_liquid_solve(g, p->push, SOLVE_TO, 0);
     pl_liquid_take_pressure(g, p->push);
     find_gain(g, p->gain);
-    add_speeds(g, p->gain);
+    pl_liquid_follow_bodies(g);
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_bound(g);
     pl_air_from_grid(s);
@@ -229,7 +213,7 @@ static bool run_part(plumb_world *world, double dt)
     pl_air_carry_scalars(s, d, world->tasks, dt, h);
     reflect(s);
     reflect_bodies(g, p.gain);
-    add_speeds(g, p.gain);
+    pl_liquid_follow_bodies(g);
     if (!run_half(&p, dt / 2)) {
         return false;
     }

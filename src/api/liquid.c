@@ -27,21 +27,49 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
     if (d->density != 0) {
         PL_TRY(pl_check_range(world, fn, "density", d->density, DENSITY_LEAST, MOST));
     }
-    return pl_check_range(world, fn, "viscosity", d->viscosity, 0, MOST);
+    return pl_check_range(world, fn, "viscosity", d->viscosity, 0, PL_LIQUID_MOST_VISCOSITY);
+}
+
+static plumb_liquid_phase resolved(const plumb_liquid_phase *phase)
+{
+    return (plumb_liquid_phase){ phase->density > 0 ? phase->density : 1000, phase->viscosity };
+}
+
+static plumb_result check_ratio(const plumb_world *world, const char *fn, real density, real first)
+{
+    const double ratio = (double)density / (double)first;
+    if (ratio < 1 / PL_LIQUID_RATIO || ratio > PL_LIQUID_RATIO) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "density of a phase is %g; it must be within a thousandth to a thousand "
+                       "times that of the first, %g",
+                       (double)density, (double)first);
+    }
+    return PLUMB_OK;
+}
+
+static plumb_result check_phase(const plumb_world *world, const char *fn,
+                                const plumb_liquid_phase *phase)
+{
+    if (phase->density != 0) {
+        PL_TRY(
+            pl_check_range(world, fn, "density", phase->density, 0, MOST * (real)PL_LIQUID_RATIO));
+    }
+    PL_TRY(pl_check_range(world, fn, "viscosity", phase->viscosity, 0, PL_LIQUID_MOST_VISCOSITY));
+    return check_ratio(world, fn, resolved(phase).density, pl_liquid_desc(&world->liquid)->density);
 }
 
 bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
 {
     return d->spacing >= SPACING_LEAST && d->spacing <= SPACING_MOST &&
            d->density >= DENSITY_LEAST && d->density <= MOST && d->viscosity >= 0 &&
-           d->viscosity <= MOST;
+           d->viscosity <= PL_LIQUID_MOST_VISCOSITY;
 }
 
-bool pl_liquid_particle_is_sound(const plumb_particle *p)
+bool pl_liquid_particle_is_sound(const plumb_particle *p, uint32_t phases)
 {
     bool sound = p->position.x - p->position.x == 0 && p->position.y - p->position.y == 0 &&
                  p->velocity.x >= -SPEED_MOST && p->velocity.x <= SPEED_MOST &&
-                 p->velocity.y >= -SPEED_MOST && p->velocity.y <= SPEED_MOST;
+                 p->velocity.y >= -SPEED_MOST && p->velocity.y <= SPEED_MOST && p->phase <= phases;
     for (int k = 0; k < 4; ++k) {
         sound &= p->gradient[k] >= -SLOPE_MOST && p->gradient[k] <= SLOPE_MOST;
     }
@@ -120,8 +148,63 @@ plumb_result plumb_liquid_set(plumb_world *world, const plumb_liquid_desc *desc)
                        (double)d.spacing, (double)spacing);
     }
     d.spacing = spacing;
+    for (uint32_t i = 0; i < world->liquid.phase_count; ++i) {
+        PL_TRY(check_ratio(world, __func__, pl_liquid_phases(&world->liquid)[i].density,
+                           d.density > 0 ? d.density : 1000));
+    }
     put_desc(&world->liquid, &d);
     return PLUMB_OK;
+}
+
+//---- phases --------------------------------------------------------------------------------------
+
+static plumb_result check_phases_left(const plumb_world *world, const char *fn, int count)
+{
+    const plumb_particle *p = pl_liquid_items(&world->liquid);
+    for (uint32_t i = 0; i < world->liquid.count; ++i) {
+        if (p[i].phase > (uint32_t)count) {
+            return pl_fail(world, PLUMB_E_STATE, fn,
+                           "count is %d, and particles are of phase %u; they must be removed first",
+                           count, (unsigned)p[i].phase);
+        }
+    }
+    return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_set_phases(plumb_world *world, const plumb_liquid_phase *phases,
+                                     int count)
+{
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (count < 0 || count > PLUMB_LIQUID_MAX_PHASES) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "count is %d; it must be 0 to %d", count,
+                       PLUMB_LIQUID_MAX_PHASES);
+    }
+    if (count > 0) {
+        PL_TRY(pl_check_pointer(world, __func__, "phases", phases));
+    }
+    for (int i = 0; i < count; ++i) {
+        PL_TRY(check_phase(world, __func__, &phases[i]));
+    }
+    PL_TRY(check_phases_left(world, __func__, count));
+    pl_liquid *liquid = &world->liquid;
+    if (!pl_buffer_reserve(&world->memory, &liquid->phases, (size_t)count * sizeof *phases)) {
+        return pl_fail_memory(world, __func__);
+    }
+    for (int i = 0; i < count; ++i) {
+        pl_liquid_phases(liquid)[i] = resolved(&phases[i]);
+    }
+    liquid->phase_count = (uint32_t)count;
+    return PLUMB_OK;
+}
+
+const plumb_liquid_phase *plumb_liquid_phases(const plumb_world *world, int *count)
+{
+    const uint32_t phases = world != NULL ? world->liquid.phase_count : 0;
+    if (count != NULL) {
+        *count = (int)phases;
+    }
+    return phases > 0 ? pl_liquid_phases(&world->liquid) : NULL;
 }
 
 //---- particles come ------------------------------------------------------------------------------
@@ -141,14 +224,13 @@ static plumb_result reserve(plumb_world *world, const char *fn, double extra)
     return PLUMB_OK;
 }
 
-static void put(plumb_world *world, plumb_vec2 position, plumb_vec2 velocity)
+static void put(plumb_world *world, plumb_vec2 position, const plumb_particle *like)
 {
     pl_liquid *liquid = &world->liquid;
     world->schedule_dirty |= liquid->count == 0;
     plumb_particle *p = &pl_liquid_items(liquid)[liquid->count++];
-    memset(p, 0, sizeof *p);
+    memcpy(p, like, sizeof *p);
     p->position = position;
-    p->velocity = velocity;
 }
 
 // Within what the grid can count.
@@ -159,15 +241,25 @@ static real most_place(const plumb_world *world)
     return most < (double)MOST ? (real)most : MOST;
 }
 
-static plumb_result check_particle(const plumb_world *world, const char *fn,
-                                   const plumb_particle *p)
+// But for its place.
+static plumb_result check_like(const plumb_world *world, const char *fn, const plumb_particle *p)
 {
-    PL_TRY(pl_check_within(world, fn, "position", p->position, most_place(world)));
     PL_TRY(pl_check_within(world, fn, "velocity", p->velocity, SPEED_MOST));
     for (int k = 0; k < 4; ++k) {
         PL_TRY(pl_check_range(world, fn, "gradient", p->gradient[k], -SLOPE_MOST, SLOPE_MOST));
     }
+    if (p->phase > world->liquid.phase_count) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "phase is %u; it must be 0 to %u",
+                       (unsigned)p->phase, (unsigned)world->liquid.phase_count);
+    }
     return PLUMB_OK;
+}
+
+static const plumb_particle water;
+
+static const plumb_particle *like_of(const plumb_particle *like)
+{
+    return like != NULL ? like : &water;
 }
 
 plumb_result plumb_liquid_add(plumb_world *world, const plumb_particle *particles, int count)
@@ -181,13 +273,13 @@ plumb_result plumb_liquid_add(plumb_world *world, const plumb_particle *particle
         PL_TRY(pl_check_pointer(world, __func__, "particles", particles));
     }
     for (int i = 0; i < count; ++i) {
-        PL_TRY(check_particle(world, __func__, &particles[i]));
+        PL_TRY(
+            pl_check_within(world, __func__, "position", particles[i].position, most_place(world)));
+        PL_TRY(check_like(world, __func__, &particles[i]));
     }
     PL_TRY(reserve(world, __func__, count));
     for (int i = 0; i < count; ++i) {
-        put(world, particles[i].position, particles[i].velocity);
-        memcpy(pl_liquid_items(&world->liquid)[world->liquid.count - 1].gradient,
-               particles[i].gradient, sizeof particles[i].gradient);
+        put(world, particles[i].position, &particles[i]);
     }
     return PLUMB_OK;
 }
@@ -246,17 +338,17 @@ static plumb_result check_box(const plumb_world *world, const char *fn, plumb_ve
 }
 
 plumb_result plumb_liquid_add_box(plumb_world *world, plumb_vec2 low, plumb_vec2 high,
-                                  plumb_vec2 velocity)
+                                  const plumb_particle *like)
 {
     PL_TRY(check_liquid(world, __func__));
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(check_box(world, __func__, low, high));
-    PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
+    PL_TRY(check_like(world, __func__, like_of(like)));
     const lattice l = lattice_of(world, low, high);
     PL_TRY(reserve(world, __func__, l.columns * l.rows));
     for (double j = 0; j < l.rows; ++j) {
         for (double i = 0; i < l.columns; ++i) {
-            put(world, place_in(&l, i, j), velocity);
+            put(world, place_in(&l, i, j), like_of(like));
         }
     }
     return PLUMB_OK;
@@ -295,21 +387,21 @@ static void mark_taken(const pl_liquid *liquid, const lattice *l, uint8_t *taken
 
 // taken: a byte a place of the lattice, or null.
 static void put_shape(plumb_world *world, const lattice *l, const uint8_t *taken,
-                      const plumb_vec2 *points, int count, plumb_vec2 velocity)
+                      const plumb_vec2 *points, int count, const plumb_particle *like)
 {
     for (double j = 0; j < l->rows; ++j) {
         for (double i = 0; i < l->columns; ++i) {
             const plumb_vec2 at = place_in(l, i, j);
             if ((taken == NULL || taken[(size_t)(j * l->columns + i)] == 0) &&
                 plumb_outline_contains(points, count, at)) {
-                put(world, at, velocity);
+                put(world, at, like);
             }
         }
     }
 }
 
 static plumb_result add_shape(plumb_world *world, const char *fn, const plumb_vec2 *points,
-                              int count, plumb_vec2 velocity, bool refills)
+                              int count, const plumb_particle *like, bool refills)
 {
     plumb_vec2 low, high;
     PL_TRY(check_liquid(world, fn));
@@ -322,7 +414,7 @@ static plumb_result add_shape(plumb_world *world, const char *fn, const plumb_ve
     for (int i = 0; i < count; ++i) {
         PL_TRY(pl_check_within(world, fn, "points", points[i], most_place(world)));
     }
-    PL_TRY(pl_check_within(world, fn, "velocity", velocity, SPEED_MOST));
+    PL_TRY(check_like(world, fn, like_of(like)));
     box_of(points, count, &low, &high);
     const lattice l = lattice_of(world, low, high);
     PL_TRY(reserve(world, fn, l.columns * l.rows));
@@ -335,24 +427,29 @@ static plumb_result add_shape(plumb_world *world, const char *fn, const plumb_ve
         memset(taken.data, 0, bytes);
         mark_taken(&world->liquid, &l, taken.data);
     }
-    put_shape(world, &l, taken.data, points, count, velocity);
+    put_shape(world, &l, taken.data, points, count, like_of(like));
     pl_buffer_free(&world->memory, &taken);
     return PLUMB_OK;
 }
 
 plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points, int count,
-                                    plumb_vec2 velocity)
+                                    const plumb_particle *like)
 {
-    return add_shape(world, __func__, points, count, velocity, false);
+    return add_shape(world, __func__, points, count, like, false);
 }
 
 plumb_result plumb_liquid_refill(plumb_world *world, const plumb_vec2 *points, int count,
-                                 plumb_vec2 velocity)
+                                 const plumb_particle *like)
 {
-    return add_shape(world, __func__, points, count, velocity, true);
+    return add_shape(world, __func__, points, count, like, true);
 }
 
 //---- they go, are seen ---------------------------------------------------------------------------
+
+static bool is_in(plumb_vec2 at, plumb_vec2 low, plumb_vec2 high)
+{
+    return at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y;
+}
 
 int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
 {
@@ -365,8 +462,7 @@ int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
     plumb_particle *items = pl_liquid_items(liquid);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < liquid->count; ++i) {
-        const plumb_vec2 at = items[i].position;
-        if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) {
+        if (!is_in(items[i].position, low, high)) {
             items[kept++] = items[i];
         }
     }
@@ -374,6 +470,31 @@ int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
     liquid->count = kept;
     world->schedule_dirty |= kept == 0 && removed > 0;
     return (int)removed;
+}
+
+int plumb_liquid_change_phase(plumb_world *world, plumb_vec2 low, plumb_vec2 high, int from, int to)
+{
+    if (check_liquid(world, __func__) != PLUMB_OK ||
+        pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        check_box(world, __func__, low, high) != PLUMB_OK) {
+        return -1;
+    }
+    pl_liquid *liquid = &world->liquid;
+    const int most = (int)liquid->phase_count;
+    if (from < 0 || to < 0 || from > most || to > most) {
+        pl_fail(world, PLUMB_E_RANGE, __func__, "phases are %d and %d; they must be 0 to %d", from,
+                to, most);
+        return -1;
+    }
+    plumb_particle *items = pl_liquid_items(liquid);
+    int changed = 0;
+    for (uint32_t i = 0; i < liquid->count; ++i) {
+        if (items[i].phase == (uint32_t)from && is_in(items[i].position, low, high)) {
+            items[i].phase = (uint32_t)to;
+            ++changed;
+        }
+    }
+    return changed;
 }
 
 const plumb_particle *plumb_liquid_particles(const plumb_world *world, int *count)

@@ -55,10 +55,12 @@ static void displace_cells(void *context, uint32_t first, uint32_t count)
         g->known_u[c] = u;
         g->known_v[c] = v;
         g->new_u[c] = u && g->open_u[c] > 0
-                          ? held((p[g->row[left]] - p[here]) / pl_liquid_gap(g, left, c))
+                          ? held(pl_liquid_light_u(g, c) * (p[g->row[left]] - p[here]) /
+                                 pl_liquid_gap(g, left, c))
                           : 0;
         g->new_v[c] = v && g->open_v[c] > 0
-                          ? held((p[g->row[down]] - p[here]) / pl_liquid_gap(g, down, c))
+                          ? held(pl_liquid_light_v(g, c) * (p[g->row[down]] - p[here]) /
+                                 pl_liquid_gap(g, down, c))
                           : 0;
     }
 }

@@ -149,6 +149,9 @@ static void point_range(void *context, uint32_t first, uint32_t count)
             .cell = s->cell,
             .index = k,
         };
+        if (b->g->mixture != NULL) {
+            b->g->mixture->phases[s->place] = (uint8_t)p->phase;
+        }
     }
 }
 
@@ -160,6 +163,10 @@ static bool sort_points(pl_memory *memory, pl_liquid_scratch *scratch, build *b,
         return false;
     }
     g->points = scratch->points.data;
+    if (g->mixture != NULL && !pl_buffer_reserve(memory, &scratch->phases, count + 1)) {
+        return false;
+    }
+    scratch->mixture.phases = scratch->phases.data;
     pl_tasks_ranges(g->tasks, count, FEWEST, cell_range, b);
     for (uint32_t k = 0; k < count; ++k) {
         ++g->first[b->spots[k].cell];
@@ -203,7 +210,8 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
     }
     build b = { g, particles, g->strays, scratch->spots.data, 1 / h };
     pl_liquid_find_spots(g, b.spots, particles, count);
-    if (!pl_liquid_find_tiles(memory, scratch, count) || !pl_liquid_make_cells(memory, scratch)) {
+    if (!pl_liquid_find_tiles(memory, scratch, count) || !pl_liquid_make_cells(memory, scratch) ||
+        (g->mixture != NULL && !pl_liquid_make_mixture(memory, scratch))) {
         return false;
     }
     return sort_points(memory, scratch, &b, count);
@@ -211,13 +219,14 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
 
 void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
 {
-    pl_buffer *all[] = { &scratch->moved,      &scratch->pushes,  &scratch->cells,
-                         &scratch->tiles,      &scratch->hash,    &scratch->keys,
-                         &scratch->points,     &scratch->spots,   &scratch->strays,
-                         &scratch->occupied,   &scratch->viscous, &scratch->blocks,
-                         &scratch->strips,     &scratch->vectors, &scratch->sums,
-                         &scratch->bodies,     &scratch->links,   &scratch->solids,
-                         &scratch->tile_solids };
+    pl_buffer *all[] = { &scratch->moved,       &scratch->pushes,  &scratch->cells,
+                         &scratch->tiles,       &scratch->hash,    &scratch->keys,
+                         &scratch->points,      &scratch->spots,   &scratch->strays,
+                         &scratch->occupied,    &scratch->viscous, &scratch->blocks,
+                         &scratch->strips,      &scratch->vectors, &scratch->sums,
+                         &scratch->bodies,      &scratch->links,   &scratch->solids,
+                         &scratch->tile_solids, &scratch->phases,  &scratch->blends,
+                         &scratch->mixed };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);
     }
@@ -233,5 +242,6 @@ void pl_liquid_free(pl_memory *memory, pl_liquid *liquid)
     }
     pl_buffer_free(memory, &liquid->settings);
     pl_buffer_free(memory, &liquid->particles);
+    pl_buffer_free(memory, &liquid->phases);
     *liquid = (pl_liquid){ .count = 0 };
 }

@@ -13,6 +13,9 @@
 
 #define PL_LIQUID_SPEED 1e6 // [m/s] of particles, and of what pushes them, at most
 #define PL_LIQUID_SLOPE 1e9 // [1/s] of their gradients
+#define PL_LIQUID_RATIO 1e3 // of densities of phases, at most
+
+#define PL_LIQUID_MOST_VISCOSITY ((plumb_real)1e9)
 
 // Within bounds; what is no number is 0. Numbers that float cannot hold come with bodies that fly to infinity.
 static inline double pl_liquid_held(double value, double most)
@@ -22,7 +25,8 @@ static inline double pl_liquid_held(double value, double most)
 
 // Of an image: defaults are resolved in it.
 bool pl_liquid_desc_is_sound(const plumb_liquid_desc *desc);
-bool pl_liquid_particle_is_sound(const plumb_particle *particle);
+bool pl_liquid_phase_is_sound(const plumb_liquid_phase *phase, plumb_real first_density);
+bool pl_liquid_particle_is_sound(const plumb_particle *particle, uint32_t phases);
 // Does not write to the scratch: of a copy of the liquid it tells what would be freed (api/memory_rows.c).
 void pl_liquid_free(pl_memory *memory, pl_liquid *liquid);
 // The arrays of the scratch, not itself.
@@ -123,6 +127,9 @@ void pl_liquid_find_inflow(pl_liquid_grid *grid);
 void pl_liquid_take_pressure(pl_liquid_grid *grid, double push);
 // Makes velocities free of divergence. `push`: [kg] density times the square of a cell's side.
 void pl_liquid_project(pl_liquid_grid *grid, double push);
+// Faces that moving bodies close go as these do now: between two of what changes their velocities.
+void pl_liquid_follow_bodies(pl_liquid_grid *grid);
+void pl_liquid_see_bodies(pl_liquid_grid *grid);
 // Solves the system for what lies in vectors[PL_LIQUID_R], with bodies if push is not 0; the answer is in P. Ends when
 // the largest of what is left is below `floor`, or `tolerance` of what it was.
 void pl_liquid_solve(pl_liquid_grid *grid, double push, double tolerance, double floor);
@@ -132,15 +139,40 @@ near_real pl_liquid_gap(const pl_liquid_grid *grid, uint32_t a, uint32_t b);
 // Displacements [cells] that even the density out, into new_u and new_v.
 void pl_liquid_even_out(pl_liquid_grid *grid);
 
+//---- phases.c ------------------------------------------------------------------------------------
+
+// [Pa s] the largest viscosity of all phases.
+double pl_liquid_thickest(const pl_liquid *liquid);
+// Whether a step has several phases, and what they are: the grid's `mixture`.
+void pl_liquid_find_mixture(const pl_liquid *liquid, plumb_vec2 gravity);
+// Its columns, when there are cells. False when out of memory.
+bool pl_liquid_make_mixture(pl_memory *memory, pl_liquid_scratch *scratch);
+// Densities of faces that no particle is near.
+void pl_liquid_lighten(pl_liquid_grid *grid);
+
+// Density of the first phase over that of a face.
+static inline near_real pl_liquid_light_u(const pl_liquid_grid *grid, uint32_t cell)
+{
+    return grid->mixture != NULL ? grid->mixture->light_u[cell] : 1;
+}
+
+static inline near_real pl_liquid_light_v(const pl_liquid_grid *grid, uint32_t cell)
+{
+    return grid->mixture != NULL ? grid->mixture->light_v[cell] : 1;
+}
+
+typedef struct pl_liquid_place {
+    double x, y; // [cells]
+} pl_liquid_place;
+
+// How far a sorted point drifts as a drop among other phases, in a way of [cells a m/s].
+pl_liquid_place pl_liquid_drift(const pl_liquid_grid *grid, uint32_t point, double way);
+
 //---- move.c --------------------------------------------------------------------------------------
 
 // Points get the velocities of faces, move by them times `way` [cells a m/s] and by the displacements, out of solids,
 // and are written to the particles.
 void pl_liquid_move(pl_liquid_grid *grid, double way, plumb_particle *particles);
-
-typedef struct pl_liquid_place {
-    double x, y; // [cells]
-} pl_liquid_place;
 
 // Keeps a place out of all solids, on its way from another; what is left of a way goes on along them. The normal of the
 // last that is met; 0: none is.

@@ -198,7 +198,12 @@ static void move_range(void *context, uint32_t first, uint32_t count)
         pl_liquid_point *p = &g->points[k];
         const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
         const place from = place_of(g, p);
-        const place to = keep_out(g, tile, from, end_of(g, p, from, m->way));
+        place end = end_of(g, p, from, m->way);
+        if (g->mixture != NULL) {
+            const place drift = pl_liquid_drift(g, k, m->way);
+            end.x += drift.x, end.y += drift.y;
+        }
+        const place to = keep_out(g, tile, from, end);
         plumb_particle *out = &m->particles[p->index];
         out->position = (plumb_vec2){ (plumb_real)(to.x * h), (plumb_real)(to.y * h) };
         out->velocity = (plumb_vec2){ within(p->u, fastest), within(p->v, fastest) };

@@ -122,14 +122,17 @@ bool pl_liquid_make_grids(pl_memory *memory, pl_liquid_scratch *scratch)
         if (g->level_count == PL_LIQUID_LEVELS || end - first <= FEW) {
             return true;
         }
-        if (!coarsen(memory, scratch, first, end)) {
+        // Kernels look beside a line. Between grids stands a strip that nobody writes: one thread may write a grid while
+        // another reads beside the end of the finer one.
+        const uint32_t next = end + 1;
+        if (push_strip(memory, scratch, 0, 0) == NULL || !coarsen(memory, scratch, first, end)) {
             return false;
         }
-        if (4 * (g->strip_count - end) > 3 * (end - first)) { // strips far from one another
+        if (4 * (g->strip_count - next) > 3 * (end - first)) { // strips far from one another
             g->strip_count = end;
             return true;
         }
-        first = end;
+        first = next;
         end = g->strip_count;
     }
 }

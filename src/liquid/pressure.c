@@ -5,7 +5,7 @@
 //
 //     sum a (P - P_beside) + sum_b K_b c_b (c_b . P) = -(what flows out of it),
 //
-// a the openness of its faces, P = 0 in air, c_b how a motion of body b fills the cell: three columns a body, for x, y
+// a the openness of its faces (times how light what is there is, see phases.c), P = 0 in air, c_b how a motion of body b fills the cell: three columns a body, for x, y
 // and its turn, K = density h^2 times inverse mass or inertia (Batty, Bertails, Bridson 2007, with faces as Ng, Min, Gibou
 // 2009 open them). The terms of a body have rank one each: they are added by its links, matrix-free. Conjugate
 // gradients, preconditioned by a cycle of coarser grids without the bodies (multigrid.c).
@@ -96,6 +96,10 @@ static void fill_strip(pl_liquid_grid *g, uint32_t s)
         const uint32_t left = g->left[c], right = g->right[c], down = g->down[c], up = g->up[c];
         near_real open[4];
         faces_of(g, c, open);
+        open[0] *= pl_liquid_light_u(g, c);
+        open[1] *= pl_liquid_light_u(g, right);
+        open[2] *= pl_liquid_light_v(g, c);
+        open[3] *= pl_liquid_light_v(g, up);
         // What is not beside it in memory, or below its strip, lies across a wrap.
         const bool below = g->row[down] >= LINE && g->row[down] / LINE == g->strips[s].down;
         g->vectors[PL_LIQUID_L][row] = g->row[left] == row - 1 ? open[0] : 0;
@@ -462,11 +466,13 @@ static void slope_cells(void *context, uint32_t first, uint32_t count)
     for (uint32_t c = 1 + first; c < 1 + first + count; ++c) {
         const uint32_t left = g->left[c], down = g->down[c], here = g->row[c];
         if (here != 0 || g->row[left] != 0) {
-            g->u[c] -= (p[here] - p[g->row[left]]) / pl_liquid_gap(g, left, c);
+            g->u[c] -=
+                pl_liquid_light_u(g, c) * (p[here] - p[g->row[left]]) / pl_liquid_gap(g, left, c);
             g->known_u[c] = 1;
         }
         if (here != 0 || g->row[down] != 0) {
-            g->v[c] -= (p[here] - p[g->row[down]]) / pl_liquid_gap(g, down, c);
+            g->v[c] -=
+                pl_liquid_light_v(g, c) * (p[here] - p[g->row[down]]) / pl_liquid_gap(g, down, c);
             g->known_v[c] = 1;
         }
         g->known_u[c] = g->open_u[c] > 0 ? g->known_u[c] : 0;
@@ -485,6 +491,27 @@ static void push_bodies(pl_liquid_grid *g, double push)
         b->vx += push * b->inv_mass_x * b->sum[0];
         b->vy += push * b->inv_mass_y * b->sum[1];
         b->w += push * b->inv_inertia * b->sum[2];
+    }
+}
+
+void pl_liquid_follow_bodies(pl_liquid_grid *g)
+{
+    for (uint32_t i = 0; i < g->link_count; ++i) {
+        const pl_liquid_link *link = &g->links[i];
+        const pl_liquid_body *b = &g->bodies[link->body];
+        const double change[3] = { b->vx - b->seen[0], b->vy - b->seen[1], b->w - b->seen[2] };
+        const double more = (double)speed_of(link, change);
+        near_real *speed = link->upright ? &g->solid_v[link->cell] : &g->solid_u[link->cell];
+        *speed += link->part * (near_real)pl_liquid_held(more, PL_LIQUID_SPEED);
+    }
+    pl_liquid_see_bodies(g);
+}
+
+void pl_liquid_see_bodies(pl_liquid_grid *g)
+{
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        pl_liquid_body *b = &g->bodies[i];
+        b->seen[0] = b->vx, b->seen[1] = b->vy, b->seen[2] = b->w;
     }
 }
 

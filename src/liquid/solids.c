@@ -215,6 +215,7 @@ bool pl_liquid_close_faces(pl_memory *memory, pl_liquid_scratch *scratch)
     pl_liquid_grid *g = &scratch->grid;
     uint32_t listed = 0;
     g->link_count = 0;
+    pl_liquid_see_bodies(g);
     near_real *restrict u = g->open_u, *restrict v = g->open_v;
     for (uint32_t c = 0; c < g->cell_count; ++c) {
         u[c] = v[c] = 1;

@@ -68,11 +68,19 @@ static bool run_part(plumb_world *world, real dt)
     }
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
-    const double amount = (double)d->viscosity / (double)d->density * (double)dt / (h * h);
-    if (amount > 0 && !pl_liquid_diffuse(memory, scratch, amount)) {
-        return false;
+    const double push = (double)d->density * h * h;
+    const double amount =
+        pl_liquid_thickest(&world->liquid) / (double)d->density * (double)dt / (h * h);
+    if (amount > 0) {
+        // Else walls would hold back what only gravity moves, and a tank at rest would stir itself.
+        pl_liquid_project(g, push);
+        pl_liquid_follow_bodies(g);
+        if (!pl_liquid_diffuse(memory, scratch, amount)) {
+            return false;
+        }
+        pl_liquid_follow_bodies(g);
     }
-    pl_liquid_project(g, (double)d->density * h * h);
+    pl_liquid_project(g, push);
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_bound(g);
     pl_liquid_even_out(g);
@@ -111,6 +119,7 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
+    pl_liquid_find_mixture(liquid, world->gravity);
     pl_liquid_place_solids(world, scratch, 0);
     if (!pl_liquid_find_strays(&world->memory, scratch, scratch->moved.data, liquid->count)) {
         return PLUMB_E_MEMORY;

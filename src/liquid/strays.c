@@ -117,7 +117,9 @@ static void fly(const flight *f, plumb_particle *p)
     vx -= into < 0 ? into * n.x : 0;
     vy -= into < 0 ? into * n.y : 0;
     *p = (plumb_particle){ .position = { pl_held(to.x * h), pl_held(to.y * h) },
-                           .velocity = { (plumb_real)vx, (plumb_real)vy } };
+                           .velocity = { (plumb_real)vx, (plumb_real)vy },
+                           .phase = p->phase,
+                           .tag = p->tag };
 }
 
 static void fly_range(void *context, uint32_t first, uint32_t count)

@@ -3,7 +3,8 @@
 // A particle carries its velocity and how that changes around it, so angular momentum survives the way to the grid
 // and back. Weights are bilinear. The sorted points of a cell are summed up once, for the faces and centres that they
 // reach: a block. Faces gather from the blocks of six cells, densities from those of nine; nothing is scattered, so any
-// thread may take any cell.
+// thread may take any cell. Where there are several phases, weights are masses, so that momentum survives, and a blend
+// beside the block has the areas (phases.c).
 //
 // Reads, writes: faces, densities, points. Cost: O(cells + points).
 #include "liquid/liquid.h"
@@ -28,6 +29,12 @@ struct pl_liquid_block {
     quad full[3];   // centres in the line below, its own, above: from left to right
 };
 
+// What phases add to a block.
+struct pl_liquid_blend {
+    quad area_u[2], area_v[2]; // as its weights, which are masses
+    quad mass[3], thick[3];    // as `full`, times what the phase is to the first
+};
+
 //---- sums of a cell ------------------------------------------------------------------------------
 
 static near_real positive(near_real x)
@@ -44,16 +51,32 @@ static near_real peak(near_real x)
 #define HATS(x) ((quad){ positive(HALF - (x)), peak(x), positive((x)-HALF), 0 })
 #define PLACES  ((quad){ -HALF, HALF, 1 + HALF, 0 })
 
-static void sum_points(const pl_liquid_grid *g, uint32_t c, pl_liquid_block *out)
+// blend: null, or where what phases add to it goes.
+static inline void sum_points(const pl_liquid_grid *g, uint32_t c, pl_liquid_block *out,
+                              pl_liquid_blend *blend)
 {
     pl_liquid_block sum = { 0 };
+    pl_liquid_blend more = { 0 };
     for (uint32_t k = g->first[c]; k < g->first[c + 1]; ++k) {
         const pl_liquid_point *p = &g->points[k];
         const quad x = HATS(p->fx), y = HATS(p->fy);
         const quad u = p->u + p->slope[1] * (PLACES - p->fy),
                    v = p->v + p->slope[2] * (PLACES - p->fx);
-        const quad left = y * (1 - p->fx), right = y * p->fx;
-        const quad low = x * (1 - p->fy), high = x * p->fy;
+        quad left = y * (1 - p->fx), right = y * p->fx;
+        quad low = x * (1 - p->fy), high = x * p->fy;
+        if (blend != NULL) {
+            const pl_liquid_kind *kind = &g->mixture->kinds[g->mixture->phases[k]];
+            const quad areas[] = { left, right, low, high };
+            for (int i = 0; i < 2; ++i) {
+                more.area_u[i] += areas[i];
+                more.area_v[i] += areas[2 + i];
+            }
+            for (int i = 0; i < 3; ++i) {
+                more.mass[i] += kind->mass * y[i] * x;
+                more.thick[i] += kind->thick * y[i] * x;
+            }
+            left *= kind->mass, right *= kind->mass, low *= kind->mass, high *= kind->mass;
+        }
         sum.weight_u[0] += left;
         sum.weight_u[1] += right;
         sum.value_u[0] += left * (u - p->slope[0] * p->fx);
@@ -67,14 +90,35 @@ static void sum_points(const pl_liquid_grid *g, uint32_t c, pl_liquid_block *out
         sum.full[2] += x * y[2];
     }
     *out = sum;
+    if (blend != NULL) {
+        *blend = more;
+    }
 }
 
 static void sum_range(void *context, uint32_t first, uint32_t count)
 {
     const pl_liquid_grid *g = context;
     for (uint32_t i = first; i < first + count; ++i) {
-        sum_points(g, g->occupied[i], &g->blocks[1 + i]);
+        sum_points(g, g->occupied[i], &g->blocks[1 + i], NULL);
     }
+}
+
+static void blend_range(void *context, uint32_t first, uint32_t count)
+{
+    const pl_liquid_grid *g = context;
+    for (uint32_t i = first; i < first + count; ++i) {
+        sum_points(g, g->occupied[i], &g->blocks[1 + i], &g->mixture->blends[1 + i]);
+    }
+}
+
+static bool make_blends(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
+{
+    if (!pl_buffer_reserve(memory, &scratch->blends, (count + 1) * sizeof(pl_liquid_blend))) {
+        return false;
+    }
+    scratch->mixture.blends = scratch->blends.data;
+    scratch->mixture.blends[0] = (pl_liquid_blend){ 0 };
+    return true;
 }
 
 bool pl_liquid_sum_cells(pl_memory *memory, pl_liquid_scratch *scratch)
@@ -91,12 +135,13 @@ bool pl_liquid_sum_cells(pl_memory *memory, pl_liquid_scratch *scratch)
         count += any;
         g->block[c] = any ? count : 0;
     }
-    if (!pl_buffer_reserve(memory, &scratch->blocks, (count + 1) * sizeof(pl_liquid_block))) {
+    if (!pl_buffer_reserve(memory, &scratch->blocks, (count + 1) * sizeof(pl_liquid_block)) ||
+        (g->mixture != NULL && !make_blends(memory, scratch, count))) {
         return false;
     }
     g->blocks = scratch->blocks.data;
     g->blocks[0] = (pl_liquid_block){ 0 };
-    pl_tasks_ranges(g->tasks, count, FEWEST, sum_range, g);
+    pl_tasks_ranges(g->tasks, count, FEWEST, g->mixture != NULL ? blend_range : sum_range, g);
     return true;
 }
 
@@ -112,25 +157,52 @@ static near_real solid_hat(const pl_liquid_grid *g, uint32_t c)
            BESIDE_SHARE * BESIDE_SHARE * corners;
 }
 
-// b: blocks of the cells around one and of itself, line by line from below.
-static void gather_cell(pl_liquid_grid *g, uint32_t c, const pl_liquid_block *const b[9])
+// Sums over b: blocks of the cells around one and of itself, line by line from below.
+#define AT_U(of)                                                                                   \
+    (b[0]->of[1][2] + b[1]->of[0][2] + b[3]->of[1][1] + b[4]->of[0][1] + b[6]->of[1][0] +          \
+     b[7]->of[0][0])
+#define AT_V(of)                                                                                   \
+    (b[0]->of[1][2] + b[1]->of[1][1] + b[2]->of[1][0] + b[3]->of[0][2] + b[4]->of[0][1] +          \
+     b[5]->of[0][0])
+#define AT_CENTRE(of)                                                                              \
+    (b[0]->of[2][2] + b[1]->of[2][1] + b[2]->of[2][0] + b[3]->of[1][2] + b[4]->of[1][1] +          \
+     b[5]->of[1][0] + b[6]->of[0][2] + b[7]->of[0][1] + b[8]->of[0][0])
+
+// The sums of a cell's centre, its left face and its lower face.
+typedef struct sums {
+    near_real u, v, area_u, area_v, full;
+} sums;
+
+static sums gather_cell(pl_liquid_grid *g, uint32_t c, const pl_liquid_block *const b[9])
 {
-    const near_real u = b[0]->weight_u[1][2] + b[1]->weight_u[0][2] + b[3]->weight_u[1][1] +
-                        b[4]->weight_u[0][1] + b[6]->weight_u[1][0] + b[7]->weight_u[0][0];
-    const near_real v = b[0]->weight_v[1][2] + b[1]->weight_v[1][1] + b[2]->weight_v[1][0] +
-                        b[3]->weight_v[0][2] + b[4]->weight_v[0][1] + b[5]->weight_v[0][0];
-    const near_real u_sum = b[0]->value_u[1][2] + b[1]->value_u[0][2] + b[3]->value_u[1][1] +
-                            b[4]->value_u[0][1] + b[6]->value_u[1][0] + b[7]->value_u[0][0];
-    const near_real v_sum = b[0]->value_v[1][2] + b[1]->value_v[1][1] + b[2]->value_v[1][0] +
-                            b[3]->value_v[0][2] + b[4]->value_v[0][1] + b[5]->value_v[0][0];
-    const near_real full = b[0]->full[2][2] + b[1]->full[2][1] + b[2]->full[2][0] +
-                           b[3]->full[1][2] + b[4]->full[1][1] + b[5]->full[1][0] +
-                           b[6]->full[0][2] + b[7]->full[0][1] + b[8]->full[0][0];
-    g->known_u[c] = u > LEAST_WEIGHT;
-    g->known_v[c] = v > LEAST_WEIGHT;
-    g->u[c] = u > LEAST_WEIGHT ? u_sum / u : 0;
-    g->v[c] = v > LEAST_WEIGHT ? v_sum / v : 0;
+    const near_real u = AT_U(weight_u), v = AT_V(weight_v), full = AT_CENTRE(full);
+    g->u[c] = AT_U(value_u);
+    g->v[c] = AT_V(value_v);
     g->density[c] = full / PL_LIQUID_FULL + g->solid[c];
+    return (sums){ u, v, u, v, full };
+}
+
+static void blend_cell(const pl_liquid_mixture *m, uint32_t c, const pl_liquid_blend *const b[9],
+                       sums *sum)
+{
+    const bool any = sum->full > LEAST_WEIGHT;
+    sum->area_u = AT_U(area_u);
+    sum->area_v = AT_V(area_v);
+    m->light_u[c] = sum->area_u > LEAST_WEIGHT ? sum->area_u / sum->u : 0;
+    m->light_v[c] = sum->area_v > LEAST_WEIGHT ? sum->area_v / sum->v : 0;
+    m->mass[c] = any ? AT_CENTRE(mass) / sum->full : 0;
+    m->thick[c] = any ? AT_CENTRE(thick) / sum->full : 0;
+}
+
+static void empty_cell(pl_liquid_grid *g, uint32_t c)
+{
+    const pl_liquid_mixture *m = g->mixture;
+    g->known_u[c] = g->known_v[c] = 0;
+    g->u[c] = g->v[c] = 0;
+    g->density[c] = g->solid[c];
+    if (m != NULL) {
+        m->light_u[c] = m->light_v[c] = m->mass[c] = m->thick[c] = 0;
+    }
 }
 
 static void gather_range(void *context, uint32_t first, uint32_t count)
@@ -141,6 +213,7 @@ static void gather_range(void *context, uint32_t first, uint32_t count)
         const uint32_t near[9] = { g->left[d],  d,          g->right[d], g->left[c], c,
                                    g->right[c], g->left[u], u,           g->right[u] };
         const pl_liquid_block *b[9];
+        const pl_liquid_blend *blends[9];
         uint32_t any = 0;
         for (int i = 0; i < 9; ++i) {
             any |= g->block[near[i]];
@@ -148,18 +221,29 @@ static void gather_range(void *context, uint32_t first, uint32_t count)
         }
         g->solid[c] = solid_hat(g, c);
         if (any == 0) {
-            g->known_u[c] = g->known_v[c] = 0;
-            g->u[c] = g->v[c] = 0;
-            g->density[c] = g->solid[c];
-        } else {
-            gather_cell(g, c, b);
+            empty_cell(g, c);
+            continue;
         }
+        sums sum = gather_cell(g, c, b);
+        if (g->mixture != NULL) {
+            for (int i = 0; i < 9; ++i) {
+                blends[i] = &g->mixture->blends[g->block[near[i]]];
+            }
+            blend_cell(g->mixture, c, blends, &sum);
+        }
+        g->known_u[c] = sum.area_u > LEAST_WEIGHT;
+        g->known_v[c] = sum.area_v > LEAST_WEIGHT;
+        g->u[c] = g->known_u[c] ? g->u[c] / sum.u : 0;
+        g->v[c] = g->known_v[c] ? g->v[c] / sum.v : 0;
     }
 }
 
 void pl_liquid_to_grid(pl_liquid_grid *g)
 {
     pl_liquid_cells(g, gather_range);
+    if (g->mixture != NULL) {
+        pl_liquid_lighten(g);
+    }
 }
 
 //---- where nothing is known ----------------------------------------------------------------------

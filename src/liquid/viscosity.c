@@ -2,9 +2,10 @@
 //
 // The velocities u that end a step of dt make
 //
-//     1/2 |u - u_before|^2 + k sum w |D|^2,   k = viscosity dt / (density h^2),
+//     1/2 m |u - u_before|^2 + k sum w |D|^2,   k = viscosity dt / (density h^2),
 //
-// least (Batty, Bridson 2008), D the rates of strain: du/dx and dv/dy at centres of cells, half of du/dy + dv/dx at their
+// least (Batty, Bridson 2008), with the density of the first phase, m that of a face over it, the largest viscosity, w that of
+// a cell over it: both are 1 where there is one phase. D the rates of strain: du/dx and dv/dy at centres of cells, half of du/dy + dv/dx at their
 // corners, which is 0 for whatever turns as a whole: a drop of honey spins on. Stresses are those of cells with
 // liquid; corners at which a face is air's have none, so surfaces are free. Faces that solids close move as they do; their
 // lines are half a cell from the faces beside them, so slopes there count twice. The system is symmetric: conjugate
@@ -29,6 +30,8 @@ enum {
     V,
     FREE_U, // 1: unknown
     FREE_V,
+    MASS_U,
+    MASS_V,
     WEIGHT,  // of a cell
     CORNER,  // of the one at the lower left
     TWICE_U, // 2: the slope to the face below ends at a wall, half a cell away
@@ -75,7 +78,9 @@ static void find_faces(equations *s)
         s->col[FREE_V][c] = v && g->open_v[c] > 0;
         s->col[U][c] = g->open_u[c] > 0 ? g->u[c] : g->solid_u[c];
         s->col[V][c] = g->open_v[c] > 0 ? g->v[c] : g->solid_v[c];
-        s->col[WEIGHT][c] = wet;
+        s->col[MASS_U][c] = 1 / pl_liquid_light_u(g, c);
+        s->col[MASS_V][c] = 1 / pl_liquid_light_v(g, c);
+        s->col[WEIGHT][c] = !wet ? 0 : g->mixture != NULL ? g->mixture->thick[c] : 1;
     }
 }
 
@@ -117,8 +122,8 @@ static void find_diagonal(equations *s)
         const uint32_t c = s->cells[i], up = g->up[c], right = g->right[c];
         const near_real corner_u = u[c] * u[c] * corner[c] + u[up] * u[up] * corner[up];
         const near_real corner_v = v[c] * v[c] * corner[c] + v[right] * v[right] * corner[right];
-        s->col[DIAGONAL_U][c] = 1 + s->k * (2 * (w[c] + w[g->left[c]]) + corner_u);
-        s->col[DIAGONAL_V][c] = 1 + s->k * (2 * (w[c] + w[g->down[c]]) + corner_v);
+        s->col[DIAGONAL_U][c] = s->col[MASS_U][c] + s->k * (2 * (w[c] + w[g->left[c]]) + corner_u);
+        s->col[DIAGONAL_V][c] = s->col[MASS_V][c] + s->k * (2 * (w[c] + w[g->down[c]]) + corner_v);
     }
 }
 
@@ -152,15 +157,15 @@ static near_real pull_v(const equations *s, uint32_t c)
     return yy[c] - yy[s->g->down[c]] + twice[right] * xy[right] - twice[c] * xy[c];
 }
 
-// out = mass (u, v) - k (what stresses do to them), of faces that are unknown.
-static void apply(equations *s, const near_real *u, const near_real *v, near_real mass,
+// out = inertia m (u, v) - k (what stresses do to them), of faces that are unknown.
+static void apply(equations *s, const near_real *u, const near_real *v, near_real inertia,
                   near_real *out_u, near_real *out_v)
 {
     find_stresses(s, u, v);
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i];
-        out_u[c] = s->col[FREE_U][c] * (mass * u[c] - s->k * pull_u(s, c));
-        out_v[c] = s->col[FREE_V][c] * (mass * v[c] - s->k * pull_v(s, c));
+        out_u[c] = s->col[FREE_U][c] * (inertia * s->col[MASS_U][c] * u[c] - s->k * pull_u(s, c));
+        out_v[c] = s->col[FREE_V][c] * (inertia * s->col[MASS_V][c] * v[c] - s->k * pull_v(s, c));
     }
 }
 
@@ -193,8 +198,10 @@ static void find_bodies(equations *s)
         double *to = s->bodies[link->body].diagonal;
         if (is_shut(g, link)) {
             const int at = link->upright ? DIAGONAL_V : DIAGONAL_U;
+            const int mass = link->upright ? MASS_V : MASS_U;
             const double part = (double)link->part, arm = (double)link->arm;
-            const double more = part * part * ((double)s->col[at][link->cell] - 1);
+            const double more =
+                part * part * (double)(s->col[at][link->cell] - s->col[mass][link->cell]);
             to[link->upright ? 1 : 0] += more > 0 ? more : 0;
             to[2] += more > 0 ? more * arm * arm : 0;
         }

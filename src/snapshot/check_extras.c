@@ -253,12 +253,16 @@ static bool check_liquid(const plumb_world *w)
 {
     const pl_liquid *f = &w->liquid;
     if (f->settings_count > 1 || f->count > PLUMB_LIQUID_MAX ||
-        (f->count > 0 && f->settings_count == 0)) {
+        f->phase_count > PLUMB_LIQUID_MAX_PHASES ||
+        (f->count + f->phase_count > 0 && f->settings_count == 0)) {
         return false;
     }
     bool sound = f->settings_count == 0 || pl_liquid_desc_is_sound(pl_liquid_desc(f));
+    for (uint32_t i = 0; i < f->phase_count && sound; ++i) {
+        sound = pl_liquid_phase_is_sound(&pl_liquid_phases(f)[i], pl_liquid_desc(f)->density);
+    }
     for (uint32_t i = 0; i < f->count && sound; ++i) {
-        sound = pl_liquid_particle_is_sound(&pl_liquid_items(f)[i]);
+        sound = pl_liquid_particle_is_sound(&pl_liquid_items(f)[i], f->phase_count);
     }
     return sound;
 }

@@ -145,6 +145,7 @@
 #define PL_STATE_LIQUID(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(plumb_liquid_desc, liquid.settings, liquid.settings_count, sizeof(plumb_liquid_desc), 0)     \
     ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
+    ARRAY(plumb_liquid_phase, liquid.phases, liquid.phase_count, sizeof(plumb_liquid_phase), 0)        \
     LEFT(liquid.scratch)
 
 #define PL_STATE_AIR(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                        \

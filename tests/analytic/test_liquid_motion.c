@@ -34,8 +34,7 @@ static plumb_world *make_tank(double width, double height, double spacing)
 
 static void add_water(plumb_world *w, double x0, double y0, double x1, double y1)
 {
-    assert_int_equal(plumb_liquid_add_box(w, sim_vec(x0, y0), sim_vec(x1, y1), sim_vec(0, 0)),
-                     PLUMB_OK);
+    assert_int_equal(plumb_liquid_add_box(w, sim_vec(x0, y0), sim_vec(x1, y1), NULL), PLUMB_OK);
 }
 
 typedef struct water {
@@ -171,10 +170,10 @@ static double vortex_energy(double viscosity, double seconds)
             const double x = (i + 0.5) / 32, y = (j + 0.5) / 32;
             const double sx = sin(k * x), cx = cos(k * x), sy = sin(k * y), cy = cos(k * y);
             const plumb_particle p = {
-                sim_vec(x, y),
-                sim_vec(sx * cy, -cx * sy),
-                { (plumb_real)(k * cx * cy), (plumb_real)(-k * sx * sy), (plumb_real)(k * sx * sy),
-                  (plumb_real)(-k * cx * cy) },
+                .position = sim_vec(x, y),
+                .velocity = sim_vec(sx * cy, -cx * sy),
+                .gradient = { (plumb_real)(k * cx * cy), (plumb_real)(-k * sx * sy),
+                              (plumb_real)(k * sx * sy), (plumb_real)(-k * cx * cy) },
             };
             plumb_liquid_add(w, &p, 1);
         }

@@ -29,8 +29,7 @@ static void make_liquid(plumb_world *w, double spacing, double viscosity)
 
 static void fill(plumb_world *w, double x0, double y0, double x1, double y1)
 {
-    assert_int_equal(plumb_liquid_add_box(w, sim_vec(x0, y0), sim_vec(x1, y1), sim_vec(0, 0)),
-                     PLUMB_OK);
+    assert_int_equal(plumb_liquid_add_box(w, sim_vec(x0, y0), sim_vec(x1, y1), NULL), PLUMB_OK);
 }
 
 // A box full of liquid from (0, 0), whose lid moves to the right.
@@ -48,6 +47,63 @@ static plumb_world *make_cavity(double width, double height, double spacing, dou
     make_liquid(w, spacing, viscosity);
     fill(w, 0, 0, width, height);
     return w;
+}
+
+// Honey in a tank stirred itself at 4 cm/s: walls held back what gravity had moved and pressure had not yet stopped.
+static void thick_liquid_rests(void **state)
+{
+    (void)state;
+    const double viscosities[] = { 1, 50, 1e4, 1e9 };
+    for (int n = 0; n < 4; ++n) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        add_wall(w, 1, -0.5, 3, 0.5);
+        add_wall(w, -0.5, 1, 0.5, 2);
+        add_wall(w, 2.5, 1, 0.5, 2);
+        make_liquid(w, 0.05, viscosities[n]);
+        fill(w, 0, 0, 2, 1);
+        sim_run(w, 300, HZ60);
+        int count;
+        double square = 0;
+        const plumb_particle *p = plumb_liquid_particles(w, &count);
+        for (int i = 0; i < count; ++i) {
+            square += pow((double)p[i].velocity.x, 2) + pow((double)p[i].velocity.y, 2);
+        }
+        print_message("a tank of %g Pa s after 5 s: rms speed %.2g m/s\n", viscosities[n],
+                      sqrt(square / count));
+        assert_true(sqrt(square / count) < 1e-4);
+        plumb_world_destroy(w);
+    }
+}
+
+// A box of half the density in honey: as deep as in water, and still.
+static void thick_liquid_carries(void **state)
+{
+    (void)state;
+    const double viscosities[] = { 0, 20, 500 };
+    for (int n = 0; n < 3; ++n) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        add_wall(w, 2, -0.5, 4, 0.5);
+        add_wall(w, -0.5, 1, 0.5, 3);
+        add_wall(w, 4.5, 1, 0.5, 3);
+        make_liquid(w, 0.05, viscosities[n]);
+        fill(w, 0, 0, 4, 2);
+        const plumb_body box = sim_body(w, PLUMB_DYNAMIC, 2, 2.5, 0);
+        const plumb_shape_desc d = { .kind = PLUMB_BOX,
+                                     .half = { PLUMB_REAL(0.5), PLUMB_REAL(0.5) },
+                                     .density = 500 };
+        assert_false(plumb_is_null(plumb_shape_create(w, box, &d)));
+        sim_run(w, 900, HZ60);
+        double mean = 0;
+        for (int k = 0; k < 300; ++k) {
+            sim_run(w, 1, HZ60);
+            mean += (double)plumb_body_center(w, box).y / 300;
+        }
+        const double draft = 2 + 0.5 / 4 - (mean - 0.5);
+        print_message("a box of half the density in %g Pa s: draft %.3f of its side\n",
+                      viscosities[n], draft);
+        assert_near(draft, 0.5, 0.05);
+        plumb_world_destroy(w);
+    }
 }
 
 // In a long cavity nothing flows through a section: u = U (3 (y/d)^2 - 2 y/d), Couette's and Poiseuille's together. Root mean
@@ -131,7 +187,9 @@ static void drops_spin_on(void **state)
         for (int j = -16; j < 16; ++j) {
             for (int i = -16; i < 16; ++i) {
                 const double x = (i + 0.5) * 0.05, y = (j + 0.5) * 0.05;
-                const plumb_particle p = { sim_vec(x, y), sim_vec(-2 * y, 2 * x), { 0, -2, 2, 0 } };
+                const plumb_particle p = {
+                    sim_vec(x, y), sim_vec(-2 * y, 2 * x), { 0, -2, 2, 0 }, 0, 0
+                };
                 if (x * x + y * y < 0.64) {
                     assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);
                     before += 2 * (x * x + y * y);
@@ -173,7 +231,7 @@ static void pitch_stands(void **state)
             front = fmax(front, (double)p[i].position.x);
         }
         print_message("a column of %g Pa s after 1 s: front at %.3f m\n", viscosities[n], front);
-        assert_true(front < last + 1e-3);
+        assert_true(front < last + 3e-3); // 1e6 and more are one
         last = front;
         plumb_world_destroy(w);
     }
@@ -183,6 +241,8 @@ static void pitch_stands(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thick_liquid_rests),
+        cmocka_unit_test(thick_liquid_carries),
         cmocka_unit_test(flow_between_plates_is_a_parabola),
         cmocka_unit_test(the_cavity_turns_as_published),
         cmocka_unit_test(drops_spin_on),

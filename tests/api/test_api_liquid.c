@@ -31,14 +31,13 @@ static plumb_world *make_tank(plumb_world_desc desc)
 
 static plumb_result fill(plumb_world *w)
 {
-    const plumb_vec2 still = { 0, 0 };
     plumb_result r = plumb_liquid_create(w, &(plumb_liquid_desc){ .viscosity = R(0.5) });
     if (r == PLUMB_OK) {
-        r = plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, R(0.6)), still);
+        r = plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, R(0.6)), NULL);
     }
     if (r == PLUMB_OK) {
         const plumb_vec2 drop[] = { { R(-0.2), 3 }, { R(0.6), 3 }, { R(0.2), R(3.6) } };
-        r = plumb_liquid_add_shape(w, drop, 3, plumb_v2(1, 0));
+        r = plumb_liquid_add_shape(w, drop, 3, &(plumb_particle){ .velocity = { 1, 0 } });
     }
     return r;
 }
@@ -127,27 +126,28 @@ static void bad_particles_are_refused(void **state)
             assert_true(plumb_liquid_add(w, two, 2) != PLUMB_OK);
             *members[k] = good;
         }
-        assert_true(plumb_liquid_add_box(w, plumb_v2(0, bad[i]), plumb_v2(1, 1), p.velocity) !=
-                    PLUMB_OK);
-        assert_true(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(1, 1), plumb_v2(bad[i], 0)) !=
+        assert_true(plumb_liquid_add_box(w, plumb_v2(0, bad[i]), plumb_v2(1, 1), NULL) != PLUMB_OK);
+        assert_true(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(1, 1),
+                                         &(plumb_particle){ .velocity = { bad[i], 0 } }) !=
                     PLUMB_OK);
         const plumb_vec2 three[] = { { 0, 0 }, { 1, 0 }, { 0, bad[i] } };
-        assert_true(plumb_liquid_add_shape(w, three, 3, p.velocity) != PLUMB_OK);
+        assert_true(plumb_liquid_add_shape(w, three, 3, NULL) != PLUMB_OK);
         assert_int_equal(plumb_liquid_remove(w, plumb_v2(0, bad[i]), plumb_v2(1, 1)), -1);
     }
-    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(1, 0), plumb_v2(0, 1), p.velocity),
-                     PLUMB_E_RANGE);
-    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(1000, 1000), p.velocity),
+    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(1, 0), plumb_v2(0, 1), NULL), PLUMB_E_RANGE);
+    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(1000, 1000), NULL),
                      PLUMB_E_RANGE); // too many
     assert_int_equal(count_of(w), 0);
     assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);
-    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(R(0.5), R(0.25)), p.velocity),
+    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(R(0.5), R(0.25)), NULL),
                      PLUMB_OK);
     assert_int_equal(count_of(w), 1 + 10 * 5);
     assert_int_equal(plumb_liquid_remove(w, plumb_v2(0, 0), plumb_v2(R(0.25), 1)), 25);
     const plumb_particle *left = plumb_liquid_particles(w, NULL);
     assert_true(left[0].position.x == 1 && left[1].position.x > R(0.25));
 }
+
+static const plumb_particle jet = { .velocity = { 3, 0 } };
 
 // A source: nothing where it is full; a jet of 3 m/s and 0.4 m for a second is 1.2 m^2, whatever the steps.
 static void refilling_keeps_a_shape_full(void **state)
@@ -159,21 +159,22 @@ static void refilling_keeps_a_shape_full(void **state)
         plumb_world *w;
         assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w),
                          PLUMB_OK);
-        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_E_STATE);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, &jet), PLUMB_E_STATE);
         plumb_liquid_create(w, NULL);
-        assert_int_equal(plumb_liquid_refill(NULL, box, 4, plumb_v2(3, 0)), PLUMB_E_NULL);
-        assert_int_equal(plumb_liquid_refill(w, NULL, 4, plumb_v2(3, 0)), PLUMB_E_NULL);
-        assert_int_equal(plumb_liquid_refill(w, box, 2, plumb_v2(3, 0)), PLUMB_E_RANGE);
-        assert_int_equal(plumb_liquid_refill(w, bad, 3, plumb_v2(3, 0)), PLUMB_E_NOT_FINITE);
-        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, R(INFINITY))),
-                         PLUMB_E_NOT_FINITE);
-        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_OK);
+        assert_int_equal(plumb_liquid_refill(NULL, box, 4, &jet), PLUMB_E_NULL);
+        assert_int_equal(plumb_liquid_refill(w, NULL, 4, &jet), PLUMB_E_NULL);
+        assert_int_equal(plumb_liquid_refill(w, box, 2, &jet), PLUMB_E_RANGE);
+        assert_int_equal(plumb_liquid_refill(w, bad, 3, &jet), PLUMB_E_NOT_FINITE);
+        assert_int_equal(
+            plumb_liquid_refill(w, box, 4, &(plumb_particle){ .velocity = { 3, R(INFINITY) } }),
+            PLUMB_E_NOT_FINITE);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, &jet), PLUMB_OK);
         assert_int_equal(count_of(w), 32);
-        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_OK);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, &jet), PLUMB_OK);
         assert_int_equal(count_of(w), 32);
         for (int i = 0; i < hz; ++i) {
             assert_int_equal(plumb_world_step(w, 1 / (plumb_real)hz), PLUMB_OK);
-            assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_OK);
+            assert_int_equal(plumb_liquid_refill(w, box, 4, &jet), PLUMB_OK);
         }
         print_message("%d Hz: %d particles\n", hz, count_of(w) - 32);
         assert_in_range(count_of(w) - 32, 480 * 0.85, 480 * 1.1);
@@ -192,12 +193,12 @@ static void extremes_stay_finite(void **state)
         PLUMB_OK);
     for (int i = 0; i < 50; ++i) {
         const plumb_real s = i % 2 == 0 ? R(1e6) : R(-1e6);
-        const plumb_particle p = { { R(0.001 * i), R(i % 3) },
-                                   { s, -s },
-                                   { R(1e9), R(-1e9), R(1e9), R(1e9) } };
+        const plumb_particle p = {
+            { R(0.001 * i), R(i % 3) }, { s, -s }, { R(1e9), R(-1e9), R(1e9), R(1e9) }, 0, 7
+        };
         assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);
     }
-    const plumb_particle far = { { R(1e8), R(-1e8) }, { 0, 0 }, { 0 } };
+    const plumb_particle far = { .position = { R(1e8), R(-1e8) } };
     assert_int_equal(plumb_liquid_add(w, &far, 1), PLUMB_OK);
     run(w, 60);
     const plumb_particle *p = plumb_liquid_particles(w, NULL);
@@ -330,7 +331,8 @@ static void large_pools_are_shared_out_without_a_bit(void **state)
                 w, crate, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.2) } });
         }
         plumb_liquid_create(w, NULL);
-        plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(8, R(2.5)), plumb_v2(1, 0));
+        plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(8, R(2.5)),
+                             &(plumb_particle){ .velocity = { 1, 0 } });
         assert_int_equal(count_of(w), 8000);
         run(w, 30);
         hashes[k] = plumb_world_hash(w);
@@ -375,7 +377,7 @@ static void what_spills_takes_no_room(void **state)
         w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, R(-0.5) } });
     plumb_shape_create(w, table, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, R(0.5) } });
     plumb_liquid_create(w, NULL);
-    plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, 1), plumb_v2(0, 0));
+    plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, 1), NULL);
     assert_int_equal(count_of(w), 800);
     run(w, 20);
     const double before = (double)plumb_world_stats(w).peak_bytes;
@@ -490,7 +492,7 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refused)
         ++*refused;
     }
     assert_int_equal(r, PLUMB_OK);
-    while ((r = plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, R(0.6)), plumb_v2(0, 0))) ==
+    while ((r = plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, R(0.6)), NULL)) ==
            PLUMB_E_MEMORY) {
         ++*refused;
         assert_int_equal(count_of(w), 0);
@@ -563,6 +565,121 @@ static void a_pool_at_rest_allocates_nothing(void **state)
     plumb_world_destroy(w);
 }
 
+//---- phases --------------------------------------------------------------------------------------
+
+static void phases_are_set_and_told(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    int count = 9;
+    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    const plumb_liquid_phase two[] = { { .density = 800, .viscosity = 1 }, { 0 } };
+    assert_int_equal(plumb_liquid_set_phases(NULL, two, 2), PLUMB_E_NULL);
+    assert_int_equal(plumb_liquid_set_phases(w, two, 2), PLUMB_E_STATE);
+    assert_null(plumb_liquid_phases(w, &count));
+    assert_int_equal(count, 0);
+    plumb_liquid_create(w, &(plumb_liquid_desc){ .density = 500 });
+    assert_int_equal(plumb_liquid_set_phases(w, NULL, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_liquid_set_phases(w, two, -1), PLUMB_E_RANGE);
+    assert_int_equal(plumb_liquid_set_phases(w, two, PLUMB_LIQUID_MAX_PHASES + 1), PLUMB_E_RANGE);
+    const plumb_real bad[] = { -1, R(NAN), R(INFINITY), R(0.4), R(6e5) };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+        const plumb_liquid_phase p = { .density = bad[i] };
+        const plumb_liquid_phase q = { .viscosity = i < 3 ? bad[i] : R(1e10) };
+        assert_true(plumb_liquid_set_phases(w, &p, 1) != PLUMB_OK);
+        assert_true(plumb_liquid_set_phases(w, &q, 1) != PLUMB_OK);
+    }
+    assert_null(plumb_liquid_phases(w, NULL));
+    assert_int_equal(plumb_liquid_set_phases(w, two, 2), PLUMB_OK);
+    const plumb_liquid_phase *told = plumb_liquid_phases(w, &count);
+    assert_int_equal(count, 2);
+    assert_true(told[0].density == 800 && told[0].viscosity == 1);
+    assert_true(told[1].density == 1000 && told[1].viscosity == 0);
+    // The first must stay within a thousandth to a thousand times each.
+    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .density = R(0.5) }), PLUMB_E_RANGE);
+    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 2 }), PLUMB_OK);
+    assert_null(plumb_liquid_phases(NULL, &count));
+    assert_int_equal(plumb_liquid_destroy(w), PLUMB_OK);
+    assert_null(plumb_liquid_phases(w, &count));
+    plumb_world_destroy(w);
+}
+
+static int count_phase(const plumb_world *w, uint32_t phase)
+{
+    int count, of = 0;
+    const plumb_particle *p = plumb_liquid_particles(w, &count);
+    for (int i = 0; i < count; ++i) {
+        of += p[i].phase == phase && p[i].tag == 5;
+    }
+    return of;
+}
+
+static void particles_have_and_change_phases(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w), PLUMB_OK);
+    plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1) });
+    const plumb_particle oil = { .phase = 1, .tag = 5 };
+    const plumb_vec2 low = { 0, 0 }, mid = { R(0.5), 1 }, high = { 1, 1 };
+    assert_int_equal(plumb_liquid_add_box(w, low, high, &oil), PLUMB_E_RANGE);
+    assert_int_equal(plumb_liquid_add(w, &oil, 1), PLUMB_E_RANGE);
+    plumb_liquid_set_phases(w, &(plumb_liquid_phase){ .density = 800 }, 1);
+    assert_int_equal(plumb_liquid_add_box(w, low, high, &oil), PLUMB_OK);
+    assert_int_equal(count_phase(w, 1), 100);
+    assert_int_equal(plumb_liquid_set_phases(w, NULL, 0), PLUMB_E_STATE);
+    assert_int_equal(plumb_liquid_change_phase(NULL, low, mid, 1, 0), -1);
+    assert_int_equal(plumb_liquid_change_phase(w, mid, low, 1, 0), -1);
+    assert_int_equal(plumb_liquid_change_phase(w, low, plumb_v2(R(NAN), 1), 1, 0), -1);
+    assert_int_equal(plumb_liquid_change_phase(w, low, mid, 2, 0), -1);
+    assert_int_equal(plumb_liquid_change_phase(w, low, mid, 1, -1), -1);
+    assert_int_equal(plumb_liquid_change_phase(w, low, mid, 0, 1), 0);
+    assert_int_equal(plumb_liquid_change_phase(w, low, mid, 1, 0), 50);
+    assert_int_equal(count_phase(w, 0), 50);
+    run(w, 10);
+    assert_int_equal(count_phase(w, 0), 50);
+    assert_int_equal(count_phase(w, 1), 50);
+    assert_int_equal(plumb_liquid_change_phase(w, plumb_v2(-9, -9), plumb_v2(9, 9), 1, 0), 50);
+    assert_int_equal(plumb_liquid_set_phases(w, NULL, 0), PLUMB_OK);
+    plumb_world_destroy(w);
+}
+
+// Whatever they are, and whoever shares the work: nothing but numbers, nothing lost, the same bits.
+static void hostile_phases_stay_finite(void **state)
+{
+    (void)state;
+    plumb_vec2 first = { 0, 0 };
+    for (int workers = 1; workers <= 2; ++workers) {
+        plumb_world *w;
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .workers = workers }, &w),
+                         PLUMB_OK);
+        plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+        plumb_shape_create(
+            w, ground,
+            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 5, 1 }, .center = { 0, -1 } });
+        plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.05) });
+        const plumb_liquid_phase three[] = { { .density = 1, .viscosity = 0 },
+                                             { .density = R(1e6), .viscosity = R(1e9) },
+                                             { .density = 1, .viscosity = 1 } };
+        assert_int_equal(plumb_liquid_set_phases(w, three, 3), PLUMB_OK);
+        for (uint32_t i = 0; i < 40; ++i) {
+            const plumb_real x = R(0.05) * (plumb_real)(i % 8), y = R(0.3) * (plumb_real)(i / 8);
+            const plumb_particle like = { .phase = i % 4, .velocity = { i % 3 == 0 ? 9 : -9, 0 } };
+            plumb_liquid_add_box(w, plumb_v2(x, y), plumb_v2(x + R(0.3), y + R(0.3)), &like);
+        }
+        const int count = count_of(w);
+        run(w, 60);
+        assert_int_equal(count_of(w), count);
+        const plumb_particle *p = plumb_liquid_particles(w, NULL);
+        for (int i = 0; i < count; ++i) {
+            assert_true(isfinite((double)p[i].position.x) && isfinite((double)p[i].velocity.y));
+        }
+        first = workers == 1 ? p[17].position : first;
+        assert_true(p[17].position.x == first.x && p[17].position.y == first.y);
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -582,6 +699,9 @@ int main(void)
         cmocka_unit_test(any_allocation_may_fail),
         cmocka_unit_test(forces_of_a_step_are_not_taken_back_by_the_next),
         cmocka_unit_test(a_pool_at_rest_allocates_nothing),
+        cmocka_unit_test(phases_are_set_and_told),
+        cmocka_unit_test(particles_have_and_change_phases),
+        cmocka_unit_test(hostile_phases_stay_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -548,7 +548,7 @@ static void change_liquid(session *s)
 {
     plumb_world *w = s->world;
     const plumb_vec2 at = place(s, -4, 3, 0, 2), far = { at.x + R(0.6), at.y + R(0.3) };
-    const plumb_vec2 velocity = place(s, -2, 2, -1, 1);
+    plumb_particle like = { .velocity = place(s, -2, 2, -1, 1), .tag = 3 };
     plumb_liquid_desc d;
     if (plumb_liquid_settings(w, &d) != PLUMB_OK) {
         plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1) });
@@ -560,7 +560,13 @@ static void change_liquid(session *s)
     } else if (one_in(s, 4)) {
         plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 700, .viscosity = 1 });
     }
-    plumb_liquid_add_box(w, at, far, velocity);
+    if (one_in(s, 2)) {
+        const plumb_liquid_phase oil = { .density = number(s, 300, 2000),
+                                         .viscosity = number(s, 0, 1) };
+        like.phase = 1;
+        plumb_liquid_set_phases(w, &oil, 1);
+    }
+    plumb_liquid_add_box(w, at, far, &like);
 }
 
 // A box of air, what is in it, what feeds it; worlds that wrap refuse it.

@@ -57,7 +57,7 @@ static void add(plumb_world *world)
         must(world,
              plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = R(0.1) }) == PLUMB_OK);
         must(world, plumb_liquid_add_box(world, (plumb_vec2){ 30, 0 }, (plumb_vec2){ 31, 1 },
-                                         (plumb_vec2){ 0, 0 }) == PLUMB_OK);
+                                         NULL) == PLUMB_OK);
     } else if (is("air")) {
         must(world, plumb_air_create(world, &(plumb_air_desc){ .position = { 31, 1 },
                                                                .half = { 1, 1 },

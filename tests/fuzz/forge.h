@@ -127,8 +127,11 @@ static inline void fill(plumb_world *w, int which)
         plumb_body_set_damping(w, a, R(0.1), 0);
         plumb_world_exclude_pair(w, a, b, true);
         plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1), .viscosity = 1 });
-        plumb_liquid_add_box(w, (plumb_vec2){ R(-0.6), R(0.6) }, (plumb_vec2){ R(0.2), R(0.8) },
-                             (plumb_vec2){ 0 });
+        plumb_liquid_set_phases(w, &(plumb_liquid_phase){ .density = 800 }, 1);
+        plumb_liquid_add_box(w, (plumb_vec2){ R(-0.6), R(0.6) }, (plumb_vec2){ R(0.2), R(0.7) },
+                             NULL);
+        plumb_liquid_add_box(w, (plumb_vec2){ R(-0.6), R(0.7) }, (plumb_vec2){ R(0.2), R(0.8) },
+                             &(plumb_particle){ .phase = 1 });
         plumb_air_create(
             w, &(plumb_air_desc){ .half = { 1, 1 }, .cell = R(0.25), .left = PLUMB_AIR_CLOSED });
         plumb_air_set_sources(w, &(plumb_air_source){ .body = b, .radius = 1, .heat = 9 }, 1);

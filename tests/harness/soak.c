@@ -274,7 +274,7 @@ static void change_liquid(soak *s)
     if (pick(s, 8) == 0) {
         const plumb_vec2 low = place(s, -2, 1, 0, 1);
         plumb_liquid_create(s->world, &(plumb_liquid_desc){ .spacing = R(0.15) });
-        plumb_liquid_add_box(s->world, low, at((double)low.x + 1.2, (double)low.y + 0.6), at(0, 0));
+        plumb_liquid_add_box(s->world, low, at((double)low.x + 1.2, (double)low.y + 0.6), NULL);
     }
 }
 

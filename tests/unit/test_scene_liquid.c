@@ -4,8 +4,8 @@
 
 static const char tank[] =
     "scene{ duration = 1 }\n"
-    "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 4, at = {-2.5, 2}}, "
-    "box{1, 4, at = {2.5, 2}} }\n"
+    "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 8, at = {-2.5, 4}}, "
+    "box{1, 8, at = {2.5, 4}} }\n"
     "body{ name = 'crate', box{0.6, 0.4}, density = 400, at = {0.3, 1.4}, angle = 0.2 }\n"
     "liquid{ spacing = 0.1, density = 900, viscosity = 2, color = '#804020', box{4, 1, at = {0, "
     "0.5}} "
@@ -16,7 +16,7 @@ static const char tank[] =
     "local area, top, speed, x, y = liquid_in(-2, 0, 2, 1)\n"
     "print(string.format('%.2f %.2f %.2f %.2f %.2f', area, top, speed, math.abs(x), y))\n"
     "print(liquid_in(5, 5, 6, 6))\n"
-    "expect{ 'it stays in the tank', at = 1, test = function() return liquid_in(-2, 0, 2, 4) == "
+    "expect{ 'it stays in the tank', at = 1, test = function() return liquid_in(-2, 0, 2, 8) == "
     "liquid_in(-9, -9, 9, 9) end }\n"
     "expect{ 'the crate floats', at = 1, body = 'crate', y = {0.9, 1.6} }\n";
 
@@ -27,7 +27,7 @@ static void words_fill_shapes(void **state)
     plumb_liquid_desc d;
     assert_int_equal(plumb_liquid_settings(scene_world(s), &d), PLUMB_OK);
     assert_true(fabs((double)d.spacing - 0.1) < 1e-6 && d.density == 900 && d.viscosity == 2);
-    const scene_liquid looks = scene_get_liquid(s);
+    const scene_liquid looks = scene_get_liquid(s, 0);
     assert_true(looks.palette < 0 && looks.color.r == 0x80 && looks.color.a == 0xff);
     int count, moving = 0;
     const plumb_particle *p = plumb_liquid_particles(scene_world(s), &count);
@@ -79,8 +79,25 @@ static void mistakes_are_told(void **state)
         { "liquid{ capsule{1, 0.5} }", "takes circles, boxes, polygons and outlines" },
         { "liquid{ box{1, 1, round = 0.1} }", "without 'round'" },
         { "liquid{ spacing = 0.0001, box{100, 100} }", "particles" },
-        { "liquid{ particles = {{1}} }", "must be 2, 4 or 8 numbers" },
-        { "liquid{ particles = {{1, 2, 3, 'x'}} }", "must be 2, 4 or 8 numbers" },
+        { "liquid{ particles = {{1}} }", "must be 2, 4, 8 or 10 numbers" },
+        { "liquid{ particles = {{1, 2, 3, 'x'}} }", "must be 2, 4, 8 or 10 numbers" },
+        { "liquid{ particles = {{1, 2, 0, 0, 0, 0, 0, 0, -1, 0}} }",
+          "must be 2, 4, 8 or 10 numbers" },
+        { "liquid{ particles = {{1, 2, 0, 0, 0, 0, 0, 0, 1, 0}} }", "phase is 1" },
+        { "liquid{ phase = 'oil', box{1, 1} }", "has no phase 'oil'" },
+        { "liquid{ phases = { {name = 'oil'} }, phase = 'oli', box{1, 1} }", "did you mean 'oil'" },
+        { "liquid{ phases = { {density = 3} } }", "name" },
+        { "liquid{ phases = { {name = 'oil', densty = 3} } }", "did you mean 'density'" },
+        { "liquid{ phases = { {name = 'oil', density = 0.3} } }", "a thousandth" },
+        { "liquid{ phases = { {name = 'oil'}, {name = 'oil'} } }", "already" },
+        { "liquid{ phases = { {name = 'water'} } }", "already" },
+        { "liquid{ phases = { 3 } }", "must be a table" },
+        { "liquid{} liquid{ phases = { {name = 'oil'} } }", "were given on line 1" },
+        { "liquid_change(1, 2, 3, 4, 'water', 'ice')", "has no phase 'ice'" },
+        { "liquid_change(1, 2, 3, 4, 5)", "takes names of phases" },
+        { "liquid_in(1, 2, 3, 4, 'oil')", "has no phase 'oil'" },
+        { "liquid{ box{1, 1} } liquid_change(1, 2, 0, 3, 'water', 'water')",
+          "takes a box x0 < x1" },
         { "liquid{ particles = {{1, 2, 3, 1e7}} }", "velocity" },
         { "liquid{ spacing = 0.1 } liquid{ spacing = 0.1 }", "were given on line 1" },
         { "liquid_in(1, 2, 3)", "liquid_in takes four numbers" },
@@ -101,6 +118,57 @@ static void mistakes_are_told(void **state)
             fail_msg("%s: %s", text, e.text);
         }
     }
+}
+
+static const char layers[] =
+    "scene{ duration = 1 }\n"
+    "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 4, at = {-1.5, 2}}, "
+    "box{1, 4, at = {1.5, 2}} }\n"
+    "liquid{ spacing = 0.1, name = 'brine', density = 1100, phases = { "
+    "{ name = 'oil', density = 800, viscosity = 0.1, color = '#e0b040' }, { name = 'ink' } }, "
+    "box{2, 1, at = {0, 0.5}} }\n"
+    "liquid{ phase = 'oil', box{2, 0.4, at = {0, 1.2}} }\n"
+    "liquid{ dye = '#204060', box{0.4, 0.2, at = {0, 1.7}} }\n"
+    "local inked = liquid_change(-1, 0, 0, 0.4, 'brine', 'ink')\n"
+    "expect{ 'inked', at = 0, test = function() return math.abs(inked - 0.4) < 1e-5, inked, 0.4 "
+    "end }\n"
+    "expect{ 'oil', at = 1, test = function() local a = liquid_in(-9, -9, 9, 9, 'oil') "
+    "return math.abs(a - 0.8) < 1e-5, a, 0.8 end }\n"
+    "expect{ 'all', at = 1, test = function() local a = liquid_in(-9, -9, 9, 9) "
+    "return math.abs(a - 2.88) < 1e-5, a, 2.88 end }\n";
+
+// By name in the language and by number in the library; through JSON with dye, and on the same way from there.
+static void phases_have_names(void **state)
+{
+    (void)state;
+    scene *s = load(layers);
+    int count;
+    const plumb_liquid_phase *p = plumb_liquid_phases(scene_world(s), &count);
+    assert_int_equal(count, 2);
+    assert_true(p[0].density == 800 && p[1].density == 1000);
+    assert_int_equal(scene_get_liquid(s, 1).color.r, 0xe0);
+    assert_true(scene_get_liquid(s, 2).color.a == 0);
+    size_t size;
+    char *json = export_json(s, &size);
+    assert_non_null(strstr(json, "\"phases\":["));
+    scene *b = load_as("test.json", json, size, NULL);
+    free(json);
+    int dyed = 0;
+    const plumb_particle *q = plumb_liquid_particles(scene_world(b), &count);
+    for (int i = 0; i < count; ++i) {
+        dyed += q[i].tag == 0xff204060u;
+    }
+    assert_int_equal(dyed, 8);
+    steps(s, 30);
+    steps(b, 30);
+    int other;
+    const plumb_particle *from = plumb_liquid_particles(scene_world(s), &other);
+    q = plumb_liquid_particles(scene_world(b), &count);
+    assert_int_equal(count, other);
+    assert_memory_equal(from, q, (size_t)count * sizeof *q);
+    scene_destroy(b);
+    run_and_hold(s);
+    scene_destroy(s);
 }
 
 // A jet that ends in a drain: what is poured is there, or has gone.
@@ -125,9 +193,8 @@ static void sources_and_drains(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_fill_shapes),
-        cmocka_unit_test(json_keeps_it),
-        cmocka_unit_test(mistakes_are_told),
+        cmocka_unit_test(words_fill_shapes),  cmocka_unit_test(json_keeps_it),
+        cmocka_unit_test(mistakes_are_told),  cmocka_unit_test(phases_have_names),
         cmocka_unit_test(sources_and_drains),
     };
     return cmocka_run_group_tests_name("liquid of scenes", tests, NULL, NULL);

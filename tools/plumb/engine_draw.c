@@ -322,30 +322,74 @@ static bool add_contacts(engine_stage *stage, render_frame *frame, unsigned show
     return true;
 }
 
+/// How a phase is drawn; a dye has a colour of its own.
+static render_rgba liquid_color(const engine_stage *stage, uint32_t phase, uint32_t dye)
+{
+    if (dye >> 24 != 0) {
+        return (render_rgba){ (unsigned char)(dye >> 16), (unsigned char)(dye >> 8),
+                              (unsigned char)dye, 0xff };
+    }
+    if (dye != 0) {
+        return render_palette((int)dye - 1);
+    }
+    const scene_liquid f = stage->scene != NULL ? scene_get_liquid(stage->scene, (int)phase)
+                                                : (scene_liquid){ .palette = -1 };
+    const render_rgba said = f.palette >= 0
+                                 ? render_palette(f.palette)
+                                 : (render_rgba){ f.color.r, f.color.g, f.color.b, f.color.a };
+    return said.a > 0 || phase == 0 ? said : render_palette((int)phase);
+}
+
+enum {
+    LIQUIDS_MOST = 64
+}; ///< colours of liquid in a picture; particles of more have that of the last
+
+/// Particles of one colour.
+typedef struct liquid_group {
+    uint32_t phase, dye;
+} liquid_group;
+
+static int group_of(liquid_group *groups, int *count, const plumb_particle *p)
+{
+    for (int i = *count - 1; i >= 0; i--) {
+        if (groups[i].phase == p->phase && groups[i].dye == p->tag) {
+            return i;
+        }
+    }
+    if (*count < LIQUIDS_MOST) {
+        groups[(*count)++] = (liquid_group){ p->phase, p->tag };
+    }
+    return *count - 1;
+}
+
 static bool add_liquid(engine_stage *stage, render_frame *frame)
 {
-    int count;
+    int count, group_count = 0;
     plumb_liquid_desc d;
+    liquid_group groups[LIQUIDS_MOST];
     const plumb_particle *p = plumb_liquid_particles(stage->world, &count);
     if (p == NULL || plumb_liquid_settings(stage->world, &d) != PLUMB_OK) {
         return true;
     }
     render_vec *points = malloc((size_t)count * sizeof *points);
-    if (points == NULL) {
-        return false;
+    unsigned char *group = malloc((size_t)count);
+    for (int i = 0; i < count && group != NULL; i++) {
+        group[i] = (unsigned char)group_of(groups, &group_count, &p[i]);
     }
-    for (int i = 0; i < count; i++) {
-        points[i] = (render_vec){ (double)p[i].position.x, (double)p[i].position.y };
+    for (int k = 0; k < group_count && points != NULL; k++) {
+        size_t n = 0;
+        for (int i = 0; i < count; i++) {
+            if (group[i] == k) {
+                points[n++] = (render_vec){ (double)p[i].position.x, (double)p[i].position.y };
+            }
+        }
+        render_add_liquid(frame, points, n, (double)d.spacing,
+                          liquid_color(stage, groups[k].phase, groups[k].dye));
     }
-    render_rgba color = { 0 };
-    if (stage->scene != NULL) {
-        const scene_liquid f = scene_get_liquid(stage->scene);
-        color = f.palette >= 0 ? render_palette(f.palette)
-                               : (render_rgba){ f.color.r, f.color.g, f.color.b, f.color.a };
-    }
-    render_add_liquid(frame, points, (size_t)count, (double)d.spacing, color);
+    const bool good = points != NULL && group != NULL;
     free(points);
-    return true;
+    free(group);
+    return good;
 }
 
 /// Into solids, as far as a cell and a half: so that smoke goes on under bodies, not ends before them.

@@ -33,6 +33,7 @@ static const word_run runs[] = {
     { "events", "on_break, on_strain", &sc_list_break, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_blast, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_liquid, 1, PLUMB_TABLE_COUNT },
+    { "effects", "tables in 'phases' of liquid{}", &sc_list_phase, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_air, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_source, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_waves, 1, PLUMB_TABLE_COUNT },

@@ -207,11 +207,21 @@ typedef struct sc_expect {
 /// liquid{}
 typedef struct sc_liquid_def {
     uint64_t present;
+    char name[SC_NAME_SIZE]; ///< of its first phase
+    char phase[SC_NAME_SIZE];
     double spacing, density, viscosity, velocity[2];
-    sc_color color;
-    bool particles, refill;
+    sc_color color, dye;
+    bool particles, phases, refill;
     int shape_count;
 } sc_liquid_def;
+
+/// One of `phases` of liquid{}
+typedef struct sc_phase_def {
+    uint64_t present;
+    char name[SC_NAME_SIZE];
+    double density, viscosity;
+    sc_color color;
+} sc_phase_def;
 
 /// air{}
 typedef struct sc_air_def {

@@ -243,6 +243,8 @@ struct scene {
 
     sc_liquid_def liquid; ///< present: it was made
     int liquid_line;
+    sc_phase_def phases[PLUMB_LIQUID_MAX_PHASES]; ///< those behind the first
+    int phase_count;
     sc_air_def air; ///< present: it was made
     int air_line;
     SC_ARRAY(sc_source) sources;
@@ -315,7 +317,7 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
     sc_list_exact, sc_list_contact, sc_list_field, sc_list_hit, sc_list_break, sc_list_pair,
     sc_list_filter, sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character,
-    sc_list_liquid, sc_list_air, sc_list_source, sc_list_orbits, sc_list_waves;
+    sc_list_liquid, sc_list_phase, sc_list_air, sc_list_source, sc_list_orbits, sc_list_waves;
 extern const sc_list sc_list_laws[SC_LAW_KINDS];
 extern const sc_list sc_list_softbodies[SC_SOFTBODY_KINDS];
 extern const sc_list sc_list_queries[SC_QUERIES];
@@ -392,7 +394,7 @@ void sc_open_shapes(lua_State *L);     ///< box, circle, ...
 void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast
 void sc_open_laws(lua_State *L);       ///< attractor, zone, magnetic, mutual, orbits
-void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in
+void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in, liquid_drain, liquid_change
 void sc_open_softbody(lua_State *L);   ///< rope, cloth, jelly, balloon, softbody
 void sc_open_air(lua_State *L);        ///< air, air_source, air_fill, air_at, air_sum
 void sc_open_waves(lua_State *L);      ///< waves, wave_at

@@ -158,19 +158,40 @@ static void write_numbers(sc_json_writer *w, const double *numbers, size_t count
     fputc(']', w->file);
 }
 
-// A particle a line: place, velocity, gradient.
+static void write_phases(sc_json_writer *w)
+{
+    fputc('[', w->file);
+    for (int i = 0; i < w->s->phase_count; i++) {
+        fputs(i > 0 ? ",\n" : "\n", w->file);
+        sc_json_object(w, &sc_list_phase, &w->s->phases[i], NULL, &sc_json_as_said);
+    }
+    fputs("\n]", w->file);
+}
+
+// A particle a line: place, velocity, gradient; of those that have them, phase and tag.
 static void write_particles(sc_json_writer *w)
 {
     int count;
     const plumb_particle *p = plumb_liquid_particles(w->s->world, &count);
     fputc('[', w->file);
     for (int i = 0; i < count; i++) {
-        const double numbers[8] = { (double)p[i].position.x,  (double)p[i].position.y,
-                                    (double)p[i].velocity.x,  (double)p[i].velocity.y,
-                                    (double)p[i].gradient[0], (double)p[i].gradient[1],
-                                    (double)p[i].gradient[2], (double)p[i].gradient[3] };
+        const double numbers[10] = { (double)p[i].position.x,
+                                     (double)p[i].position.y,
+                                     (double)p[i].velocity.x,
+                                     (double)p[i].velocity.y,
+                                     (double)p[i].gradient[0],
+                                     (double)p[i].gradient[1],
+                                     (double)p[i].gradient[2],
+                                     (double)p[i].gradient[3],
+                                     p[i].phase,
+                                     p[i].tag };
+        const int more = p[i].phase != 0 || p[i].tag != 0 ? 10 : 8;
         fputs(i > 0 ? ",\n" : "\n", w->file);
-        write_numbers(w, numbers, 8, true);
+        for (int k = 0; k < more; k++) {
+            fputc(k > 0 ? ',' : '[', w->file);
+            sc_json_number(w, numbers[k], k < 8);
+        }
+        fputc(']', w->file);
     }
     fputs("\n]", w->file);
 }
@@ -355,6 +376,8 @@ static void write_value(sc_json_writer *w, const sc_field *row, const void *def,
             write_modes(w, from->waves);
         } else if (strcmp(row->name, "cells") == 0) {
             write_cells(w);
+        } else if (strcmp(row->name, "phases") == 0) {
+            write_phases(w);
         } else {
             write_particles(w); // no other table has a JSON form
         }

@@ -158,6 +158,8 @@ static void write_liquid(sc_json_writer *w)
     SC_MARK(list, &d, sc_liquid_def, shape_count, false);
     SC_MARK(list, &d, sc_liquid_def, velocity, false);
     SC_MARK(list, &d, sc_liquid_def, refill, false);
+    SC_MARK(list, &d, sc_liquid_def, phase, false);
+    SC_MARK(list, &d, sc_liquid_def, dye, false);
     SC_MARK(list, &d, sc_liquid_def, particles, count > 0);
     fputs("\"liquid\":", w->file);
     sc_json_object(w, list, &d, NULL, &sc_json_as_said);

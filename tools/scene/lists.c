@@ -229,7 +229,11 @@ const sc_list sc_list_blast = { "blast", blast_rows, COUNT(blast_rows) };
 static const sc_field liquid_rows[] = {
     { "color",     SC_COLOR,  AT(T, color),       0, 0, NULL, 0, 0 },
     { "density",   SC_NUMBER, AT(T, density),     1e-6, 1e9, "kg/m^2", 0, 0 },
+    { "dye",       SC_COLOR,  AT(T, dye),         0, 0, NULL, 0, 0 },
+    { "name",      SC_STRING, AT(T, name),        0, 0, NULL, 0, 0 },
     { "particles", SC_TABLE,  AT(T, particles),   0, 0, NULL, 0, 0 },
+    { "phase",     SC_STRING, AT(T, phase),       0, 0, NULL, 0, 0 },
+    { "phases",    SC_TABLE,  AT(T, phases),      0, 0, NULL, 0, 0 },
     { "refill",    SC_BOOL,   AT(T, refill),      0, 0, NULL, 0, 0 },
     { "shapes",    SC_SHAPES, AT(T, shape_count), 0, 0, NULL, SC_REST, 0 },
     { "spacing",   SC_NUMBER, AT(T, spacing),     1e-4, 1e3, "m", 0, 0 },
@@ -237,6 +241,16 @@ static const sc_field liquid_rows[] = {
     { "viscosity", SC_NUMBER, AT(T, viscosity),   0, 1e9, "Pa s", 0, 0 },
 };
 const sc_list sc_list_liquid = { "liquid", liquid_rows, COUNT(liquid_rows) };
+#undef T
+
+#define T sc_phase_def
+static const sc_field phase_rows[] = {
+    { "color",     SC_COLOR,  AT(T, color),     0, 0, NULL, 0, 0 },
+    { "density",   SC_NUMBER, AT(T, density),   1e-9, 1e12, "kg/m^2", 0, 0 },
+    { "name",      SC_STRING, AT(T, name),      0, 0, NULL, 0, SC_REQUIRED },
+    { "viscosity", SC_NUMBER, AT(T, viscosity), 0, 1e9, "Pa s", 0, 0 },
+};
+const sc_list sc_list_phase = { "phases", phase_rows, COUNT(phase_rows) };
 #undef T
 
 #define T sc_air_def

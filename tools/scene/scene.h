@@ -201,12 +201,12 @@ typedef struct scene_camera {
 } scene_camera;
 
 scene_camera scene_get_camera(const scene *s);
-/// How liquid{} wants it drawn: palette number, -1: see color; color.a 0: neither was said.
+/// How liquid{} wants a phase drawn: palette number, -1: see color; color.a 0: neither was said.
 typedef struct scene_liquid {
     int palette;
     scene_rgba color;
 } scene_liquid;
-scene_liquid scene_get_liquid(const scene *s);
+scene_liquid scene_get_liquid(const scene *s, int phase);
 /// How a soft body wants to be drawn: likewise.
 typedef struct scene_softbody {
     int palette;

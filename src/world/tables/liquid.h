@@ -62,6 +62,25 @@ typedef struct pl_liquid_spot {
 } pl_liquid_spot;
 
 typedef struct pl_liquid_block pl_liquid_block; // transfer.c
+typedef struct pl_liquid_blend pl_liquid_blend;
+
+// What a phase is to the first; lengths in cells.
+typedef struct pl_liquid_kind {
+    near_real mass;   // density over that of the first
+    near_real thick;  // viscosity over the largest
+} pl_liquid_kind;
+
+// Phases in a part of a step, if there are several. Columns of cells, as below.
+typedef struct pl_liquid_mixture {
+    pl_liquid_kind kinds[1 + PLUMB_LIQUID_MAX_PHASES];
+    uint8_t *phases;              // of the sorted points
+    pl_liquid_blend *blends;      // what blocks are to it
+    near_real *light_u, *light_v; // density of the first over that of a face
+    near_real *mass, *thick;      // round a cell's centre; mass 0: nothing is near
+    double other;                 // densities that are less apart are one phase
+    double drag;                  // [m^2/s] of what is as thick as the thickest, and as dense as the first
+    double fall_x, fall_y;        // [m/s^2] gravity
+} pl_liquid_mixture;
 
 typedef struct pl_liquid_tile {
     uint64_t key;
@@ -77,6 +96,7 @@ typedef struct pl_liquid_body {
     plumb_body body;
     double x, y, c, s;                 // [m] centre, rotation, at this time of the step
     double vx, vy, w;                  // [m/s], [rad/s]
+    double seen[3];                    // that motion, as the faces that it closes have it
     double inv_mass_x, inv_mass_y;     // [1/kg] 0: it is locked
     double inv_inertia;                // [1/(kg m^2)]
     double impulse_x, impulse_y, turn; // [N s], [N m s] since the step began
@@ -146,6 +166,7 @@ typedef struct pl_liquid_grid {
     pl_liquid_wrap *wraps;
     uint32_t wrap_count;
     double drag; // [kg] above 0: viscosity drags bodies, density times the square of a cell's side
+    const pl_liquid_mixture *mixture; // null: all is one phase
     pl_liquid_solid *solids;
     uint32_t *tile_solids;
 #define PL_LIQUID_DECLARE(type, name) type *name;
@@ -165,8 +186,9 @@ typedef struct pl_liquid_scratch {
     pl_buffer pushes; // pl_liquid_push
     uint32_t push_count; // of this step, until nothing can fail any more: they can be undone
     pl_liquid_grid grid;
+    pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {
@@ -174,6 +196,8 @@ typedef struct pl_liquid {
     uint32_t settings_count;
     uint32_t count;
     pl_buffer particles; // plumb_particle
+    pl_buffer phases;    // plumb_liquid_phase, beside the first
+    uint32_t phase_count;
     pl_liquid_scratch *scratch; // NULL: no step has needed it yet
 } pl_liquid;
 
@@ -185,6 +209,11 @@ static inline plumb_particle *pl_liquid_items(const pl_liquid *liquid)
 static inline const plumb_liquid_desc *pl_liquid_desc(const pl_liquid *liquid)
 {
     return (const plumb_liquid_desc *)liquid->settings.data;
+}
+
+static inline plumb_liquid_phase *pl_liquid_phases(const pl_liquid *liquid)
+{
+    return (plumb_liquid_phase *)liquid->phases.data;
 }
 
 #endif
