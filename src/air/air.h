@@ -48,8 +48,6 @@ bool pl_air_add_sides(pl_memory *memory, pl_air_scratch *scratch, const plumb_ai
 bool pl_air_make_grid(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
 // Behind pl_liquid_plan: what lies across periodic sides. False when out of memory.
 bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
-// Takes from what flows into cells that no way joins to open sides what is too much in all.
-bool pl_air_balance(pl_memory *memory, pl_air_scratch *scratch);
 
 //---- carry.c -------------------------------------------------------------------------------------
 

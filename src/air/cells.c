@@ -24,7 +24,7 @@ void pl_air_free(pl_memory *memory, pl_air *air)
 {
     if (air->scratch != NULL) {
         pl_air_scratch copy = *air->scratch;
-        pl_buffer *all[] = { &copy.columns, &copy.moved, &copy.stack, &copy.wraps, &copy.gains };
+        pl_buffer *all[] = { &copy.columns, &copy.moved, &copy.wraps, &copy.gains };
         pl_liquid_free_arrays(memory, &copy.liquid);
         for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
             pl_buffer_free(memory, all[i]);

@@ -1,13 +1,10 @@
-// sides.c - the box of the air on the grid of pressures: walls at its sides, periodic ones, rooms that are closed.
+// sides.c - the box of the air on the grid of pressures: walls at its sides, periodic ones.
 //
 // A side that is closed, or flows, is a solid beside the box that stands still or is driven: faces close as those of all
 // solids do (liquid/solids.c). An open side has nothing behind it: pressure is 0 at its faces. Cells at periodic sides are
 // joined to one another; what the matrix has across them is a list besides, as its lines end at sides.
 //
-// Pressures of a room without an open side have no level of their own, and what flows into it must be 0 in all: what is
-// not, as a piston presses into it, is taken out evenly. Rooms that a moving body is in both of are one: it yields.
-//
-// Reads: settings, faces. Writes: solids, tiles, cells, wraps, vectors[PL_LIQUID_R]. Cost: O(cells).
+// Reads: settings, faces. Writes: solids, tiles, cells, wraps. Cost: O(cells).
 #include "air/air.h"
 
 #include <string.h>
@@ -168,90 +165,6 @@ bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *s, const plumb_air_des
     for (int32_t i = 0; i < s->columns_x && d->bottom == PLUMB_AIR_PERIODIC; ++i) {
         const uint32_t c = pl_liquid_cell_at(g, s->low_x + i, s->low_y);
         add_wrap(g, c, g->down[c], g->open_v[c]);
-    }
-    return true;
-}
-
-//---- rooms ---------------------------------------------------------------------------------------
-
-// Rooms as trees: `parent` of cells, of which none is above its children's number; bodies behind the cells.
-static uint32_t root_of(uint32_t *parent, uint32_t c)
-{
-    while (parent[c] != c) {
-        parent[c] = parent[parent[c]];
-        c = parent[c];
-    }
-    return c;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b) {
-        parent[b] = a;
-    } else {
-        parent[a] = b;
-    }
-}
-
-// Cell 0 is what all open sides lead to.
-static void find_rooms(const pl_liquid_grid *g, uint32_t *parent)
-{
-    for (uint32_t c = 0; c < g->cell_count + g->body_count; ++c) {
-        parent[c] = c;
-    }
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        const uint32_t left = g->left[c], down = g->down[c];
-        const bool here = g->row[c] != 0, at_left = g->row[left] != 0, below = g->row[down] != 0;
-        if (g->open_u[c] > 0 && (here || at_left)) {
-            join(parent, here ? c : 0, at_left ? left : 0);
-        }
-        if (g->open_v[c] > 0 && (here || below)) {
-            join(parent, here ? c : 0, below ? down : 0);
-        }
-    }
-    for (uint32_t i = 0; i < g->link_count; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-        if (g->row[link->cell] != 0) {
-            join(parent, link->cell, g->cell_count + link->body);
-        }
-        if (g->row[other] != 0) {
-            join(parent, other, g->cell_count + link->body);
-        }
-    }
-}
-
-typedef struct room {
-    double sum;
-    uint32_t count;
-} room;
-
-bool pl_air_balance(pl_memory *memory, pl_air_scratch *s)
-{
-    const pl_liquid_grid *g = &s->liquid.grid;
-    near_real *r = g->vectors[PL_LIQUID_R];
-    const uint32_t n = g->cell_count + g->body_count;
-    if (!pl_buffer_reserve(memory, &s->stack, n * (sizeof(room) + sizeof(uint32_t)))) {
-        return false;
-    }
-    room *rooms = s->stack.data;
-    uint32_t *parent = (uint32_t *)(void *)(rooms + n);
-    find_rooms(g, parent);
-    memset(rooms, 0, n * sizeof *rooms);
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        if (g->row[c] != 0) {
-            room *of = &rooms[root_of(parent, c)];
-            of->sum += (double)r[g->row[c]];
-            ++of->count;
-        }
-    }
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        const uint32_t root = g->row[c] != 0 ? root_of(parent, c) : 0;
-        if (root != 0) {
-            r[g->row[c]] -= (near_real)(rooms[root].sum / rooms[root].count);
-        }
     }
     return true;
 }

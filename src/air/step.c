@@ -177,7 +177,7 @@ static bool run_half(const part *p, double dt)
     memcpy(s->now_v, s->v, bytes);
     note_bodies(g, p->gain);
     pl_liquid_find_inflow(g);
-    if (!pl_air_balance(memory, s)) {
+    if (!pl_liquid_balance(memory, &s->liquid, true)) {
         return false;
     }
     pl_liquid_solve(g, p->push, SOLVE_TO, 0);

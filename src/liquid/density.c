@@ -65,11 +65,16 @@ static void displace_cells(void *context, uint32_t first, uint32_t count)
     }
 }
 
-void pl_liquid_even_out(pl_liquid_grid *g)
+bool pl_liquid_even_out(pl_memory *memory, pl_liquid_scratch *scratch)
 {
+    pl_liquid_grid *g = &scratch->grid;
     pl_tasks_ranges(g->tasks, g->levels[0].end - 1, 64, excess_range, g);
+    if (!pl_liquid_balance(memory, scratch, false)) {
+        return false;
+    }
     pl_liquid_solve(g, 0, SOLVE_TO, EVEN);
     pl_liquid_cells(g, displace_cells);
     g->new_u[0] = g->new_v[0] = 0;
     pl_liquid_extrapolate(g, g->new_u, g->new_v, 1);
+    return true;
 }

@@ -226,7 +226,7 @@ void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
                          &scratch->strips,      &scratch->vectors, &scratch->sums,
                          &scratch->bodies,      &scratch->links,   &scratch->solids,
                          &scratch->tile_solids, &scratch->phases,  &scratch->blends,
-                         &scratch->mixed };
+                         &scratch->mixed,       &scratch->rooms };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);
     }

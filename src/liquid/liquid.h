@@ -125,8 +125,8 @@ bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch);
 // Its parts: what flows into cells, into vectors[PL_LIQUID_R]; what pressures do to faces and bodies.
 void pl_liquid_find_inflow(pl_liquid_grid *grid);
 void pl_liquid_take_pressure(pl_liquid_grid *grid, double push);
-// Makes velocities free of divergence. `push`: [kg] density times the square of a cell's side.
-void pl_liquid_project(pl_liquid_grid *grid, double push);
+// Makes velocities free of divergence. `push`: [kg] density times the square of a cell's side. False when out of memory.
+bool pl_liquid_project(pl_memory *memory, pl_liquid_scratch *scratch, double push);
 // Faces that moving bodies close go as these do now: between two of what changes their velocities.
 void pl_liquid_follow_bodies(pl_liquid_grid *grid);
 void pl_liquid_see_bodies(pl_liquid_grid *grid);
@@ -136,8 +136,13 @@ void pl_liquid_solve(pl_liquid_grid *grid, double push, double tolerance, double
 // How far it is [cells] from the centre of the one of two cells that has liquid to the surface between them; 1 where both
 // have.
 near_real pl_liquid_gap(const pl_liquid_grid *grid, uint32_t a, uint32_t b);
-// Displacements [cells] that even the density out, into new_u and new_v.
-void pl_liquid_even_out(pl_liquid_grid *grid);
+// Displacements [cells] that even the density out, into new_u and new_v. False when out of memory.
+bool pl_liquid_even_out(pl_memory *memory, pl_liquid_scratch *scratch);
+
+//---- rooms.c -------------------------------------------------------------------------------------
+
+// Takes out of vectors[PL_LIQUID_R] what has no answer, before it is solved for. False when out of memory.
+bool pl_liquid_balance(pl_memory *memory, pl_liquid_scratch *scratch, bool bodies_move);
 
 //---- phases.c ------------------------------------------------------------------------------------
 

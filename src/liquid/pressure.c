@@ -526,11 +526,16 @@ void pl_liquid_take_pressure(pl_liquid_grid *g, double push)
     push_bodies(g, push);
 }
 
-void pl_liquid_project(pl_liquid_grid *g, double push)
+bool pl_liquid_project(pl_memory *memory, pl_liquid_scratch *scratch, double push)
 {
+    pl_liquid_grid *g = &scratch->grid;
     pl_liquid_find_inflow(g);
+    if (!pl_liquid_balance(memory, scratch, true)) {
+        return false;
+    }
     pl_liquid_solve(g, push, 1e-5, 0);
     pl_liquid_take_pressure(g, push);
+    return true;
 }
 
 static bool has_room(const pl_liquid_grid *g, uint32_t c)

@@ -73,17 +73,23 @@ static bool run_part(plumb_world *world, real dt)
         pl_liquid_thickest(&world->liquid) / (double)d->density * (double)dt / (h * h);
     if (amount > 0) {
         // Else walls would hold back what only gravity moves, and a tank at rest would stir itself.
-        pl_liquid_project(g, push);
+        if (!pl_liquid_project(memory, scratch, push)) {
+            return false;
+        }
         pl_liquid_follow_bodies(g);
         if (!pl_liquid_diffuse(memory, scratch, amount)) {
             return false;
         }
         pl_liquid_follow_bodies(g);
     }
-    pl_liquid_project(g, push);
+    if (!pl_liquid_project(memory, scratch, push)) {
+        return false;
+    }
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_bound(g);
-    pl_liquid_even_out(g);
+    if (!pl_liquid_even_out(memory, scratch)) {
+        return false;
+    }
     pl_liquid_move(g, (double)dt / h, moved);
     pl_liquid_place_solids(world, scratch, (double)dt);
     return true;

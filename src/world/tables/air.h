@@ -27,7 +27,6 @@ typedef struct pl_air_scratch {
     pl_liquid_scratch liquid; // grid, solids, bodies, matrix: the liquid's kernels
     pl_buffer columns;
     pl_buffer moved;      // plumb_air_cell: as they are after the step
-    pl_buffer stack;      // of cells that are joined
     pl_buffer wraps;      // pl_liquid_wrap
     pl_buffer gains;      // double[3]: of bodies, what a projection gives their velocities
     int32_t low_x, low_y; // cells, from the origin of the world

@@ -188,7 +188,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {
