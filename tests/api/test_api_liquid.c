@@ -573,7 +573,7 @@ static void phases_are_set_and_told(void **state)
     plumb_world *w;
     int count = 9;
     assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
-    const plumb_liquid_phase two[] = { { .density = 800, .viscosity = 1 }, { 0 } };
+    const plumb_liquid_phase two[] = { { .density = 800, .viscosity = 1 }, { .viscosity = 0 } };
     assert_int_equal(plumb_liquid_set_phases(NULL, two, 2), PLUMB_E_NULL);
     assert_int_equal(plumb_liquid_set_phases(w, two, 2), PLUMB_E_STATE);
     assert_null(plumb_liquid_phases(w, &count));
