@@ -65,6 +65,13 @@ bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
            d->viscosity <= PL_LIQUID_MOST_VISCOSITY;
 }
 
+bool pl_liquid_phase_is_sound(const plumb_liquid_phase *phase, plumb_real first_density)
+{
+    const double ratio = (double)phase->density / (double)first_density;
+    return ratio >= 1 / PL_LIQUID_RATIO && ratio <= PL_LIQUID_RATIO && phase->viscosity >= 0 &&
+           phase->viscosity <= PL_LIQUID_MOST_VISCOSITY;
+}
+
 bool pl_liquid_particle_is_sound(const plumb_particle *p, uint32_t phases)
 {
     bool sound = p->position.x - p->position.x == 0 && p->position.y - p->position.y == 0 &&

@@ -23,13 +23,6 @@
 #define OTHER                                                                                      \
     0.15 // of the range of densities: less than that ahead is the reach of a hat, not another phase
 
-bool pl_liquid_phase_is_sound(const plumb_liquid_phase *phase, plumb_real first_density)
-{
-    const double ratio = (double)phase->density / (double)first_density;
-    return ratio >= 1 / PL_LIQUID_RATIO && ratio <= PL_LIQUID_RATIO && phase->viscosity >= 0 &&
-           phase->viscosity <= PL_LIQUID_MOST_VISCOSITY;
-}
-
 double pl_liquid_thickest(const pl_liquid *liquid)
 {
     double most = (double)pl_liquid_desc(liquid)->viscosity;
