@@ -105,20 +105,14 @@ static bool is_still(const plumb_world *world)
 
 //---- a part of the step --------------------------------------------------------------------------
 
-static void note_bodies(const pl_liquid_grid *g, double (*out)[3])
+// What bodies got since faces followed them.
+static void find_gain(const pl_liquid_grid *g, double (*gain)[3])
 {
     for (uint32_t i = 0; i < g->body_count; ++i) {
-        out[i][0] = g->bodies[i].vx, out[i][1] = g->bodies[i].vy, out[i][2] = g->bodies[i].w;
-    }
-}
-
-// `before` becomes what they got since.
-static void find_gain(const pl_liquid_grid *g, double (*before)[3])
-{
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        before[i][0] = g->bodies[i].vx - before[i][0];
-        before[i][1] = g->bodies[i].vy - before[i][1];
-        before[i][2] = g->bodies[i].w - before[i][2];
+        const pl_liquid_body *b = &g->bodies[i];
+        gain[i][0] = b->vx - b->seen[0];
+        gain[i][1] = b->vy - b->seen[1];
+        gain[i][2] = b->w - b->seen[2];
     }
 }
 
@@ -175,7 +169,6 @@ static bool run_half(const part *p, double dt)
     }
     memcpy(s->now, s->u, bytes);
     memcpy(s->now_v, s->v, bytes);
-    note_bodies(g, p->gain);
     pl_liquid_find_inflow(g);
     if (!pl_liquid_balance(memory, &s->liquid, true)) {
         return false;

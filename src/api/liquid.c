@@ -30,15 +30,20 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
     return pl_check_range(world, fn, "viscosity", d->viscosity, 0, PL_LIQUID_MOST_VISCOSITY);
 }
 
-static plumb_liquid_phase resolved(const plumb_liquid_phase *phase)
+static real density_of(real said)
 {
-    return (plumb_liquid_phase){ phase->density > 0 ? phase->density : 1000, phase->viscosity };
+    return said > 0 ? said : 1000;
+}
+
+static bool are_near(real density, real first)
+{
+    const double ratio = (double)density / (double)first;
+    return ratio >= 1 / PL_LIQUID_RATIO && ratio <= PL_LIQUID_RATIO;
 }
 
 static plumb_result check_ratio(const plumb_world *world, const char *fn, real density, real first)
 {
-    const double ratio = (double)density / (double)first;
-    if (ratio < 1 / PL_LIQUID_RATIO || ratio > PL_LIQUID_RATIO) {
+    if (!are_near(density, first)) {
         return pl_fail(world, PLUMB_E_RANGE, fn,
                        "density of a phase is %g; it must be within a thousandth to a thousand "
                        "times that of the first, %g",
@@ -55,7 +60,8 @@ static plumb_result check_phase(const plumb_world *world, const char *fn,
             pl_check_range(world, fn, "density", phase->density, 0, MOST * (real)PL_LIQUID_RATIO));
     }
     PL_TRY(pl_check_range(world, fn, "viscosity", phase->viscosity, 0, PL_LIQUID_MOST_VISCOSITY));
-    return check_ratio(world, fn, resolved(phase).density, pl_liquid_desc(&world->liquid)->density);
+    return check_ratio(world, fn, density_of(phase->density),
+                       pl_liquid_desc(&world->liquid)->density);
 }
 
 bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
@@ -67,8 +73,7 @@ bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
 
 bool pl_liquid_phase_is_sound(const plumb_liquid_phase *phase, plumb_real first_density)
 {
-    const double ratio = (double)phase->density / (double)first_density;
-    return ratio >= 1 / PL_LIQUID_RATIO && ratio <= PL_LIQUID_RATIO && phase->viscosity >= 0 &&
+    return are_near(phase->density, first_density) && phase->viscosity >= 0 &&
            phase->viscosity <= PL_LIQUID_MOST_VISCOSITY;
 }
 
@@ -97,7 +102,7 @@ static void put_desc(pl_liquid *liquid, const plumb_liquid_desc *d)
     plumb_liquid_desc *to = liquid->settings.data;
     memset(to, 0, sizeof *to); // padding, too: it is saved
     to->spacing = d->spacing > 0 ? d->spacing : PLUMB_REAL(0.05);
-    to->density = d->density > 0 ? d->density : 1000;
+    to->density = density_of(d->density);
     to->viscosity = d->viscosity;
 }
 
@@ -157,7 +162,7 @@ plumb_result plumb_liquid_set(plumb_world *world, const plumb_liquid_desc *desc)
     d.spacing = spacing;
     for (uint32_t i = 0; i < world->liquid.phase_count; ++i) {
         PL_TRY(check_ratio(world, __func__, pl_liquid_phases(&world->liquid)[i].density,
-                           d.density > 0 ? d.density : 1000));
+                           density_of(d.density)));
     }
     put_desc(&world->liquid, &d);
     return PLUMB_OK;
@@ -199,7 +204,8 @@ plumb_result plumb_liquid_set_phases(plumb_world *world, const plumb_liquid_phas
         return pl_fail_memory(world, __func__);
     }
     for (int i = 0; i < count; ++i) {
-        pl_liquid_phases(liquid)[i] = resolved(&phases[i]);
+        pl_liquid_phases(liquid)[i] =
+            (plumb_liquid_phase){ density_of(phases[i].density), phases[i].viscosity };
     }
     liquid->phase_count = (uint32_t)count;
     return PLUMB_OK;

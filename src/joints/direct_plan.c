@@ -11,6 +11,7 @@
 //
 // Reads: groups, marks. Writes: plan.direct. Cost: O(joints + entries), when joints or clusters change.
 #include "joints/direct.h"
+#include "core/union_find.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -111,15 +112,6 @@ static uint32_t search_all(search *s)
     return end;
 }
 
-static uint32_t root_of(search *s, uint32_t row)
-{
-    while (s->same[row] != row) {
-        s->same[row] = s->same[s->same[row]];
-        row = s->same[row];
-    }
-    return row;
-}
-
 static bool add_entry(search *s, uint32_t joint, uint32_t at, uint32_t number)
 {
     pl_direct *direct = &s->world->joints.plan.direct;
@@ -164,7 +156,7 @@ static bool eliminate(search *s, uint32_t at, pl_direct_column *column)
         if (row == PL_NONE) {
             continue;
         }
-        const uint32_t root = root_of(s, row);
+        const uint32_t root = pl_union_leader(s->same, row);
         if (!add_hanging(s, root, at, number)) {
             return false;
         }

@@ -20,8 +20,8 @@
 #include <math.h>
 
 #define MOST_DRIFT 0.5 // [cells] a part of a step
-#define OTHER                                                                                      \
-    0.15 // of the range of densities: less than that ahead is the reach of a hat, not another phase
+// Of the range of densities: less than that ahead is the reach of a hat, not another phase.
+#define OTHER 0.15
 
 double pl_liquid_thickest(const pl_liquid *liquid)
 {

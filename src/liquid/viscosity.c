@@ -4,12 +4,13 @@
 //
 //     1/2 m |u - u_before|^2 + k sum w |D|^2,   k = viscosity dt / (density h^2),
 //
-// least (Batty, Bridson 2008), with the density of the first phase, m that of a face over it, the largest viscosity, w that of
-// a cell over it: both are 1 where there is one phase. D the rates of strain: du/dx and dv/dy at centres of cells, half of du/dy + dv/dx at their
-// corners, which is 0 for whatever turns as a whole: a drop of honey spins on. Stresses are those of cells with
-// liquid; corners at which a face is air's have none, so surfaces are free. Faces that solids close move as they do; their
-// lines are half a cell from the faces beside them, so slopes there count twice. The system is symmetric: conjugate
-// gradients with its diagonal, which lose energy in each iteration: cut short it is stable all the same.
+// least (Batty, Bridson 2008), with the density of the first phase, m that of a face over it, the largest viscosity, w that
+// of a cell over it: both are 1 where there is one phase. D are the rates of strain: du/dx and dv/dy at centres of cells,
+// half of du/dy + dv/dx at their corners, which is 0 for whatever turns as a whole: a drop of honey spins on. Stresses are
+// those of cells with liquid; corners at which a face is air's have none, so surfaces are free. Faces that solids close
+// move as they do; their lines are half a cell from the faces beside them, so slopes there count twice. The system is
+// symmetric: conjugate gradients with its diagonal, which lose energy in each iteration: cut short it is stable all the
+// same.
 //
 // Where the grid says so (`drag`), velocities of moving bodies are unknown too: three columns a body, which its links
 // add to the faces that it closes, as in pressure.c. What walls take from the flow is then what bodies get.

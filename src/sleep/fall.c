@@ -11,6 +11,7 @@
 // Reads: times of rest, pairs, joints. Writes: what lying down does (lie.c). Order: after the narrow phase, before
 // anything has moved. Cost: O(pairs + joints) when islands are looked for.
 #include "sleep/fall.h"
+#include "core/union_find.h"
 #include "world/push.h"
 #include "world/marks.h"
 #include "joints/joint.h"
@@ -27,26 +28,6 @@
 #define ANCHORED 2u // it touches, or is joined to, what is fixed
 
 //---- islands -------------------------------------------------------------------------------------
-
-static uint32_t root_of(uint32_t *parents, uint32_t row)
-{
-    while (parents[row] != row) {
-        row = parents[row] = parents[parents[row]];
-    }
-    return row;
-}
-
-// The lower row becomes the root: parents never lie above their children.
-static void unite(uint32_t *parents, uint32_t a, uint32_t b)
-{
-    a = root_of(parents, a);
-    b = root_of(parents, b);
-    if (a < b) {
-        parents[b] = a;
-    } else {
-        parents[a] = b;
-    }
-}
 
 static bool moves(const plumb_world *world, uint32_t row)
 {
@@ -69,7 +50,7 @@ static void link_rows(plumb_world *world, uint32_t a, uint32_t b)
     bool member_a = a < world->dynamic_count && parents[a] != PL_NONE;
     bool member_b = b < world->dynamic_count && parents[b] != PL_NONE;
     if (member_a && member_b) {
-        unite(parents, a, b);
+        pl_union_join(parents, a, b);
     } else if (member_a && !is_calm(world, b)) {
         held[a] |= HELD;
     } else if (member_b && !is_calm(world, a)) {

@@ -235,7 +235,7 @@ static void boxes_float_by_their_density(void **state)
 }
 
 // Crates that fall into a pool enclose water between them that has no way out. Its sums once spoilt those of all water, which was
-// pressed to a tenth in five seconds. Where it is full, a cell has four particles, not forty.
+// pressed to a seventh of its height in five seconds.
 static void crates_press_no_water_away(void **state)
 {
     (void)state;

@@ -49,18 +49,25 @@ static plumb_world *make_cavity(double width, double height, double spacing, dou
     return w;
 }
 
+// A tank from (0, 0), open above, filled so high.
+static plumb_world *make_tank(double width, double depth, double viscosity)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    add_wall(w, width / 2, -0.5, width / 2 + 2, 0.5);
+    add_wall(w, -0.5, 1, 0.5, 3);
+    add_wall(w, width + 0.5, 1, 0.5, 3);
+    make_liquid(w, 0.05, viscosity);
+    fill(w, 0, 0, width, depth);
+    return w;
+}
+
 // Honey in a tank stirred itself at 4 cm/s: walls held back what gravity had moved and pressure had not yet stopped.
 static void thick_liquid_rests(void **state)
 {
     (void)state;
     const double viscosities[] = { 1, 50, 1e4, 1e9 };
     for (int n = 0; n < 4; ++n) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-        add_wall(w, 1, -0.5, 3, 0.5);
-        add_wall(w, -0.5, 1, 0.5, 2);
-        add_wall(w, 2.5, 1, 0.5, 2);
-        make_liquid(w, 0.05, viscosities[n]);
-        fill(w, 0, 0, 2, 1);
+        plumb_world *w = make_tank(2, 1, viscosities[n]);
         sim_run(w, 300, HZ60);
         int count;
         double square = 0;
@@ -81,12 +88,7 @@ static void thick_liquid_carries(void **state)
     (void)state;
     const double viscosities[] = { 0, 20, 500 };
     for (int n = 0; n < 3; ++n) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-        add_wall(w, 2, -0.5, 4, 0.5);
-        add_wall(w, -0.5, 1, 0.5, 3);
-        add_wall(w, 4.5, 1, 0.5, 3);
-        make_liquid(w, 0.05, viscosities[n]);
-        fill(w, 0, 0, 4, 2);
+        plumb_world *w = make_tank(4, 2, viscosities[n]);
         const plumb_body box = sim_body(w, PLUMB_DYNAMIC, 2, 2.5, 0);
         const plumb_shape_desc d = { .kind = PLUMB_BOX,
                                      .half = { PLUMB_REAL(0.5), PLUMB_REAL(0.5) },
@@ -231,7 +233,8 @@ static void pitch_stands(void **state)
             front = fmax(front, (double)p[i].position.x);
         }
         print_message("a column of %g Pa s after 1 s: front at %.3f m\n", viscosities[n], front);
-        assert_true(front < last + 3e-3); // 1e6 and more are one
+        // 1e6 is as thick as it gets: 1e9 is that.
+        assert_true(n < 3 ? front < last + 1e-3 : fabs(front - last) < 3e-3);
         last = front;
         plumb_world_destroy(w);
     }

@@ -322,6 +322,12 @@ static bool add_contacts(engine_stage *stage, render_frame *frame, unsigned show
     return true;
 }
 
+/// A colour as a scene said it; a == 0: it said none.
+static render_rgba color_said(int palette, scene_rgba c)
+{
+    return palette >= 0 ? render_palette(palette) : (render_rgba){ c.r, c.g, c.b, c.a };
+}
+
 /// How a phase is drawn; a dye has a colour of its own.
 static render_rgba liquid_color(const engine_stage *stage, uint32_t phase, uint32_t dye)
 {
@@ -334,15 +340,12 @@ static render_rgba liquid_color(const engine_stage *stage, uint32_t phase, uint3
     }
     const scene_liquid f = stage->scene != NULL ? scene_get_liquid(stage->scene, (int)phase)
                                                 : (scene_liquid){ .palette = -1 };
-    const render_rgba said = f.palette >= 0
-                                 ? render_palette(f.palette)
-                                 : (render_rgba){ f.color.r, f.color.g, f.color.b, f.color.a };
+    const render_rgba said = color_said(f.palette, f.color);
     return said.a > 0 || phase == 0 ? said : render_palette((int)phase);
 }
 
-enum {
-    LIQUIDS_MOST = 64
-}; ///< colours of liquid in a picture; particles of more have that of the last
+/// Colours of liquid in a picture; particles of more have that of the last.
+enum { LIQUIDS_MOST = 64 };
 
 /// Particles of one colour.
 typedef struct liquid_group {
@@ -445,10 +448,7 @@ static bool add_air(engine_stage *stage, render_frame *frame)
     const bool good = points != NULL && known != NULL;
     if (good && any) {
         const render_vec low = { (double)box.low.x, (double)box.low.y };
-        const render_rgba color =
-            looks.palette >= 0
-                ? render_palette(looks.palette)
-                : (render_rgba){ looks.color.r, looks.color.g, looks.color.b, looks.color.a };
+        const render_rgba color = color_said(looks.palette, looks.color);
         spread_smoke(&box, points, known);
         render_add_smoke(frame, low, (double)box.cell, box.columns, points, count, color);
     }

@@ -22,8 +22,8 @@ typedef struct raster {
     int columns, rows;
     double step; // [px]
     float *sum;  // of hats: those of one colour, or all of them
-    float *
-        all; // of several colours: sum, then r, g, b times weight, and weights, one plane behind the other
+    // Of several colours: sum, then r, g, b times weight, and weights, one plane behind the other.
+    float *all;
 } raster;
 
 enum { PLANES = 5 };

@@ -251,8 +251,8 @@ static void push_place(lua_State *L, int inside, double place)
     }
 }
 
-// liquid_in(x0, y0, x1, y1, phase): of one phase, or of all: area [m^2], the highest place of a particle [m] or nil, their rms speed [m/s], their centre
-// [m] or nils.
+// liquid_in(x0, y0, x1, y1, phase): of one phase, or of all: area [m^2], the highest place of a particle [m] or nil, their
+// rms speed [m/s], their centre [m] or nils.
 static int lua_liquid_in(lua_State *L)
 {
     scene *s = sc_of(L);
@@ -297,33 +297,39 @@ static plumb_vec2 corner(const double at[2], const plumb_liquid_desc *d)
                          (plumb_real)fmin(fmax(at[1], -most), most) };
 }
 
-// Of so many particles, as liquid_drain and liquid_change answer.
-static int push_area(scene *s, const sc_site *site, int count)
+// The box that liquid_drain and liquid_change take.
+typedef struct region {
+    plumb_vec2 low, high; // [m]
+    int count;            // particles to look at
+    double area;          // [m^2] of one
+} region;
+
+static region take_region(scene *s, const sc_site *site)
 {
+    double box[4];
+    region r = { .count = 0 };
     plumb_liquid_desc d = { 0 };
-    plumb_liquid_settings(s->world, &d);
+    take_box(s, site, box);
+    sc_need_world(s);
+    plumb_liquid_particles(s->world, &r.count);
+    sc_work(s, 10 + (uint64_t)r.count);
+    if (r.count > 0) {
+        plumb_liquid_settings(s->world, &d);
+        r.low = corner(box, &d), r.high = corner(box + 2, &d);
+        r.area = (double)d.spacing * (double)d.spacing;
+    }
+    return r;
+}
+
+// They answer with the area of so many particles.
+static int push_area(scene *s, const sc_site *site, const region *r, int count)
+{
     if (count < 0) {
         sc_raise(s, SCENE_E_RANGE, site, NULL, 0, NULL, "%s takes a box x0 < x1, y0 < y1",
                  site->construct);
     }
-    lua_pushnumber(s->L, count * (double)d.spacing * (double)d.spacing);
+    lua_pushnumber(s->L, count * r->area);
     return 1;
-}
-
-// Takes the box; how many particles there are to look at.
-static int take_corners(scene *s, const sc_site *site, plumb_vec2 *low, plumb_vec2 *high)
-{
-    double box[4];
-    plumb_liquid_desc d = { 0 };
-    int count;
-    take_box(s, site, box);
-    sc_need_world(s);
-    plumb_liquid_particles(s->world, &count);
-    plumb_liquid_settings(s->world, &d);
-    sc_work(s, 10 + (uint64_t)count);
-    *low = corner(box, &d);
-    *high = corner(box + 2, &d);
-    return count;
 }
 
 // liquid_drain(x0, y0, x1, y1): removes what is in the box; the area that went [m^2].
@@ -331,9 +337,9 @@ static int lua_liquid_drain(lua_State *L)
 {
     scene *s = sc_of(L);
     const sc_site site = sc_here(s, "liquid_drain");
-    plumb_vec2 low, high;
-    const int count = take_corners(s, &site, &low, &high);
-    return push_area(s, &site, count > 0 ? plumb_liquid_remove(s->world, low, high) : 0);
+    const region r = take_region(s, &site);
+    const int removed = r.count > 0 ? plumb_liquid_remove(s->world, r.low, r.high) : 0;
+    return push_area(s, &site, &r, removed);
 }
 
 // liquid_change(x0, y0, x1, y1, from, to): what is of one phase in the box is of another; the area that changed [m^2].
@@ -341,11 +347,11 @@ static int lua_liquid_change(lua_State *L)
 {
     scene *s = sc_of(L);
     const sc_site site = sc_here(s, "liquid_change");
-    plumb_vec2 low, high;
-    const int count = take_corners(s, &site, &low, &high);
+    const region r = take_region(s, &site);
     const int from = take_phase_name(s, &site, 5), to = take_phase_name(s, &site, 6);
-    return push_area(s, &site,
-                     count > 0 ? plumb_liquid_change_phase(s->world, low, high, from, to) : 0);
+    const int changed =
+        r.count > 0 ? plumb_liquid_change_phase(s->world, r.low, r.high, from, to) : 0;
+    return push_area(s, &site, &r, changed);
 }
 
 scene_liquid scene_get_liquid(const scene *s, int phase)
