@@ -13,27 +13,17 @@
 #include "harness/near.h"
 #include "harness/random.h"
 #include "harness/sim.h"
+#include "harness/tank.h"
 
 #define HZ60 (1 / 60.0)
 #define PI   3.14159265358979323846
-
-static void add_wall(plumb_world *w, double x, double y, double hx, double hy)
-{
-    const plumb_material none = PLUMB_NULL_INIT;
-    sim_add_box(w, sim_body(w, PLUMB_STATIC, x, y, 0), hx, hy, none);
-}
 
 // From (0, 0), open above. The first phase is water; the second has a density, and a viscosity.
 static plumb_world *make_tank(double width, double height, double spacing, double density,
                               double viscosity)
 {
-    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_world *w = tank_make(width, height, spacing);
     const plumb_liquid_phase second = { (plumb_real)density, (plumb_real)viscosity };
-    add_wall(w, width / 2, -0.5, width / 2 + 1, 0.5);
-    add_wall(w, -0.5, height / 2, 0.5, height / 2 + 1);
-    add_wall(w, width + 0.5, height / 2, 0.5, height / 2 + 1);
-    assert_int_equal(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = (plumb_real)spacing }),
-                     PLUMB_OK);
     assert_int_equal(plumb_liquid_set_phases(w, &second, 1), PLUMB_OK);
     return w;
 }
@@ -132,7 +122,7 @@ static double period_of(double spacing, double density)
     enum { HZ = 120, CROSSINGS = 4 };
     const double width = 2, h = 0.5, k = PI / width, speed = 0.05;
     plumb_world *w = make_tank(width, 1, spacing, density, 0);
-    add_wall(w, 1, 1.5, 3, 0.5);
+    tank_wall(w, 1, 1.5, 3, 0.5);
     const int columns = (int)(width / spacing + 0.5), rows = (int)(2 * h / spacing + 0.5);
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {

@@ -10,14 +10,9 @@
 
 #include "harness/near.h"
 #include "harness/sim.h"
+#include "harness/tank.h"
 
 #define HZ60 (1 / 60.0)
-
-static void add_wall(plumb_world *w, double x, double y, double hx, double hy)
-{
-    const plumb_material none = PLUMB_NULL_INIT;
-    sim_add_box(w, sim_body(w, PLUMB_STATIC, x, y, 0), hx, hy, none);
-}
 
 static void make_liquid(plumb_world *w, double spacing, double viscosity)
 {
@@ -38,9 +33,9 @@ static plumb_world *make_cavity(double width, double height, double spacing, dou
 {
     plumb_world *w = sim_space();
     const plumb_material none = PLUMB_NULL_INIT;
-    add_wall(w, width / 2, -0.5, width / 2 + 1, 0.5);
-    add_wall(w, -0.5, height / 2, 0.5, height / 2);
-    add_wall(w, width + 0.5, height / 2, 0.5, height / 2);
+    tank_wall(w, width / 2, -0.5, width / 2 + 1, 0.5);
+    tank_wall(w, -0.5, height / 2, 0.5, height / 2);
+    tank_wall(w, width + 0.5, height / 2, 0.5, height / 2);
     const plumb_body lid = sim_body(w, PLUMB_KINEMATIC, 0, height + 0.5, 0);
     sim_add_box(w, lid, 40, 0.5, none);
     plumb_body_set_velocity(w, lid, sim_vec(speed, 0));
@@ -53,9 +48,9 @@ static plumb_world *make_cavity(double width, double height, double spacing, dou
 static plumb_world *make_tank(double width, double depth, double viscosity)
 {
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-    add_wall(w, width / 2, -0.5, width / 2 + 2, 0.5);
-    add_wall(w, -0.5, 1, 0.5, 3);
-    add_wall(w, width + 0.5, 1, 0.5, 3);
+    tank_wall(w, width / 2, -0.5, width / 2 + 2, 0.5);
+    tank_wall(w, -0.5, 1, 0.5, 3);
+    tank_wall(w, width + 0.5, 1, 0.5, 3);
     make_liquid(w, 0.05, viscosity);
     fill(w, 0, 0, width, depth);
     return w;
@@ -222,7 +217,7 @@ static void pitch_stands(void **state)
     double last = 10;
     for (int n = 0; n < 4; ++n) {
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-        add_wall(w, 0, -0.5, 10, 0.5);
+        tank_wall(w, 0, -0.5, 10, 0.5);
         make_liquid(w, 0.05, viscosities[n]);
         fill(w, -0.5, 0, 0.5, 1);
         sim_run(w, 60, HZ60);

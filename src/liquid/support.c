@@ -1,0 +1,107 @@
+// support.c - what holds bodies in the liquid: the ground under them, ropes, other bodies.
+//
+// The liquid moves its copies of bodies before contacts and joints are known. What these did is what the step made of a body's velocity
+// beyond what the liquid had expected; the next step expects it again. Without it a crate on the ground falls by g dt in the liquid's
+// part of each step, and stirs the water. An impact lasts a step and is no support: only what two steps have in common is.
+//
+// With the force F of the liquid and the added mass M of a body of mass m the error falls by M / (m + M) a step, whatever both are.
+//
+// Reads: velocities, masses. Writes: supports. Cost: O(n log n) bodies near the liquid.
+#include "core/sort.h"
+#include "liquid/liquid.h"
+#include "world/rows.h"
+
+#include <string.h>
+
+#define MOST 1e30 // [N] that float can still multiply by
+
+static uint64_t key_of(plumb_body body)
+{
+    return pl_key(body.entity.index, body.entity.generation);
+}
+
+static double shorter(double a, double b)
+{
+    return a * b <= 0 ? 0 : a * a < b * b ? a : b;
+}
+
+// What two forces have in common: the shorter one, unless they part.
+static void find_common(const pl_liquid_support *s, double held[3])
+{
+    const double *a = s->last, *b = s->before;
+    const double both = a[0] * b[0] + a[1] * b[1];
+    const double *least = a[0] * a[0] + a[1] * a[1] < b[0] * b[0] + b[1] * b[1] ? a : b;
+    held[0] = both > 0 ? least[0] : 0;
+    held[1] = both > 0 ? least[1] : 0;
+    held[2] = shorter(a[2], b[2]);
+}
+
+static const pl_liquid_support *support_of(const pl_liquid *liquid, plumb_body body)
+{
+    const pl_liquid_support *all = liquid->supports.data;
+    bool found = false;
+    const uint32_t at =
+        pl_find_key(all, liquid->support_count, sizeof *all, key_of(body), &found);
+    return found ? &all[at] : NULL;
+}
+
+bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid)
+{
+    pl_liquid_scratch *scratch = liquid->scratch;
+    const pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(memory, &scratch->order, g->body_count * sizeof(pl_keyed)) ||
+        !pl_buffer_reserve(memory, &scratch->supports, g->body_count * sizeof(pl_liquid_support)) ||
+        !pl_buffer_reserve(memory, &liquid->supports, g->body_count * sizeof(pl_liquid_support))) {
+        return false;
+    }
+    for (uint32_t i = 0; i < g->body_count && liquid->support_count > 0; ++i) {
+        const pl_liquid_support *s = support_of(liquid, g->bodies[i].body);
+        if (s != NULL) {
+            find_common(s, g->bodies[i].held);
+        }
+    }
+    return true;
+}
+
+// [N] from how much faster it is than expected.
+static double force_of(double held, double more, double inverse, double dt)
+{
+    return inverse > 0 ? pl_liquid_held(held + more / (inverse * dt), MOST) : 0;
+}
+
+static pl_liquid_support note(const plumb_world *world, const pl_liquid_body *body, double dt)
+{
+    const pl_bodies *b = &world->bodies;
+    const uint32_t row = pl_body_row(world, body->body);
+    const pl_liquid_support *old = support_of(&world->liquid, body->body);
+    pl_liquid_support s = { .key = key_of(body->body) };
+    s.last[0] = force_of(body->held[0], (double)b->vx[row] - body->vx, body->inv_mass_x, dt);
+    s.last[1] = force_of(body->held[1], (double)b->vy[row] - body->vy, body->inv_mass_y, dt);
+    s.last[2] = force_of(body->held[2], (double)b->w[row] - body->w, body->inv_inertia, dt);
+    if (old != NULL) {
+        memcpy(s.before, old->last, sizeof s.before);
+    }
+    return s;
+}
+
+void pl_liquid_note_supports(plumb_world *world, real dt)
+{
+    pl_liquid *liquid = &world->liquid;
+    pl_liquid_scratch *scratch = liquid->scratch;
+    const pl_liquid_grid *g = &scratch->grid;
+    pl_liquid_support *notes = scratch->supports.data, *to = liquid->supports.data;
+    pl_keyed *order = scratch->order.data;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        if (g->bodies[i].moves) {
+            notes[count] = note(world, &g->bodies[i], (double)dt);
+            order[count] = (pl_keyed){ .key = notes[count].key, .value = count };
+            ++count;
+        }
+    }
+    pl_sort_keyed(order, count);
+    for (uint32_t i = 0; i < count; ++i) {
+        to[i] = notes[order[i].value];
+    }
+    liquid->support_count = count;
+}
