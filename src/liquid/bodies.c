@@ -14,7 +14,10 @@
 #include <math.h>
 #include <string.h>
 
-#define MARGIN 6.0 // cells round the particles in which solids are looked for
+#define FILM                                                                                       \
+    0.02 // [cells] of liquid that what touches leaves between: without it nothing would rise from the ground
+#define SHARPEST 0.2
+#define MARGIN   6.0 // cells round the particles in which solids are looked for
 
 typedef pl_liquid_region region;
 
@@ -144,9 +147,12 @@ bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_li
                            real dt)
 {
     const uint32_t end = pl_partition_first(world, PL_PART_DISABLED);
-    for (uint32_t row = 0; row < end; ++row) {
-        if (!add_row(world, scratch, row, &r, dt)) {
-            return false;
+    for (int yields = 0; yields < 2; ++yields) { // a face that the ground closes is the ground's
+        for (uint32_t row = 0; row < end; ++row) {
+            if ((world->bodies.type[row] == PLUMB_DYNAMIC) == yields &&
+                !add_row(world, scratch, row, &r, dt)) {
+                return false;
+            }
         }
     }
     return true;
@@ -168,9 +174,9 @@ void pl_liquid_pull_bodies(plumb_world *world, real dt)
         const bool falls_x = body->inv_mass_x > 0, falls_y = body->inv_mass_y > 0;
         body->vx += falls_x ? fall * (double)world->gravity.x : 0;
         body->vy += falls_y ? fall * (double)world->gravity.y : 0;
-        body->vx += h * (double)b->fx[row] * body->inv_mass_x;
-        body->vy += h * (double)b->fy[row] * body->inv_mass_y;
-        body->w += h * (double)b->torque[row] * body->inv_inertia;
+        body->vx += h * ((double)b->fx[row] + body->held[0]) * body->inv_mass_x;
+        body->vy += h * ((double)b->fy[row] + body->held[1]) * body->inv_mass_y;
+        body->w += h * ((double)b->torque[row] + body->held[2]) * body->inv_inertia;
     }
 }
 

@@ -17,8 +17,8 @@
 static near_real excess(const pl_liquid_grid *g, uint32_t c)
 {
     const uint32_t near[4] = { g->left[c], g->right[c], g->down[c], g->up[c] };
-    const near_real open[4] = { g->open_u[c], g->open_u[near[1]], g->open_v[c],
-                                g->open_v[near[3]] };
+    near_real open[4];
+    pl_liquid_faces_of(g, c, open);
     near_real e = g->density[c] - 1;
     e = e > MOST_EXCESS ? MOST_EXCESS : e < -MOST_EXCESS ? -MOST_EXCESS : e;
     for (int k = 0; k < 4 && e < 0; ++k) {

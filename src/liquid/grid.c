@@ -226,7 +226,8 @@ void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
                          &scratch->strips,      &scratch->vectors, &scratch->sums,
                          &scratch->bodies,      &scratch->links,   &scratch->solids,
                          &scratch->tile_solids, &scratch->phases,  &scratch->blends,
-                         &scratch->mixed,       &scratch->rooms };
+                         &scratch->mixed,       &scratch->rooms,   &scratch->order,
+                         &scratch->supports,    &scratch->joined };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);
     }
@@ -243,5 +244,6 @@ void pl_liquid_free(pl_memory *memory, pl_liquid *liquid)
     pl_buffer_free(memory, &liquid->settings);
     pl_buffer_free(memory, &liquid->particles);
     pl_buffer_free(memory, &liquid->phases);
+    pl_buffer_free(memory, &liquid->supports);
     *liquid = (pl_liquid){ .count = 0 };
 }

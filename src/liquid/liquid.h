@@ -118,6 +118,37 @@ void pl_liquid_multiply_strip(const pl_liquid_grid *grid, uint32_t strip, const 
 void pl_liquid_cycle(pl_liquid_grid *grid);
 void pl_liquid_sweep_strip(const pl_liquid_grid *grid, uint32_t strip);
 
+// How open a cell's left, right, lower and upper faces are. Cell 0 is open.
+static inline void pl_liquid_faces_of(const pl_liquid_grid *grid, uint32_t cell, near_real open[4])
+{
+    open[0] = grid->open_u[cell];
+    open[1] = grid->open_u[grid->right[cell]];
+    open[2] = grid->open_v[cell];
+    open[3] = grid->open_v[grid->up[cell]];
+}
+
+//---- wet.c ---------------------------------------------------------------------------------------
+
+// Marks cells that have liquid. False when out of memory.
+bool pl_liquid_find_wet(pl_memory *memory, pl_liquid_scratch *scratch);
+// How far it is [cells] from the centre of the one of two cells that has liquid to the surface between them; 1 where both
+// have.
+near_real pl_liquid_gap(const pl_liquid_grid *grid, uint32_t a, uint32_t b);
+
+//---- links.c -------------------------------------------------------------------------------------
+
+// Adds what bodies make of pressures p to out, a product with the matrix; the answer is what this adds to p . A p. `push`: [kg] density times
+// the square of a cell's side.
+double pl_liquid_add_links(pl_liquid_grid *grid, const near_real *p, near_real *out, double push);
+// The pressures of the answer push bodies.
+void pl_liquid_push_bodies(pl_liquid_grid *grid, double push);
+// What of a body has no pressures on both sides, as it lies on the ground, is borne as by water at rest. fall_x, fall_y: [m/s] by
+// gravity.
+void pl_liquid_bear_rests(pl_liquid_grid *grid, double push, double fall_x, double fall_y);
+// Faces that moving bodies close go as these do now: between two of what changes their velocities.
+void pl_liquid_follow_bodies(pl_liquid_grid *grid);
+void pl_liquid_see_bodies(pl_liquid_grid *grid);
+
 //---- pressure.c, density.c -----------------------------------------------------------------------
 
 // Which cells have liquid, the matrix, its factors. False when out of memory.
@@ -127,15 +158,9 @@ void pl_liquid_find_inflow(pl_liquid_grid *grid);
 void pl_liquid_take_pressure(pl_liquid_grid *grid, double push);
 // Makes velocities free of divergence. `push`: [kg] density times the square of a cell's side. False when out of memory.
 bool pl_liquid_project(pl_memory *memory, pl_liquid_scratch *scratch, double push);
-// Faces that moving bodies close go as these do now: between two of what changes their velocities.
-void pl_liquid_follow_bodies(pl_liquid_grid *grid);
-void pl_liquid_see_bodies(pl_liquid_grid *grid);
 // Solves the system for what lies in vectors[PL_LIQUID_R], with bodies if push is not 0; the answer is in P. Ends when
 // the largest of what is left is below `floor`, or `tolerance` of what it was.
 void pl_liquid_solve(pl_liquid_grid *grid, double push, double tolerance, double floor);
-// How far it is [cells] from the centre of the one of two cells that has liquid to the surface between them; 1 where both
-// have.
-near_real pl_liquid_gap(const pl_liquid_grid *grid, uint32_t a, uint32_t b);
 // Displacements [cells] that even the density out, into new_u and new_v. False when out of memory.
 bool pl_liquid_even_out(pl_memory *memory, pl_liquid_scratch *scratch);
 
@@ -203,6 +228,13 @@ void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, doub
 // Impulses of the step become forces on bodies, and back. Room was made by pl_liquid_find_solids.
 void pl_liquid_push_rows(plumb_world *world, pl_liquid_scratch *scratch, real dt);
 void pl_liquid_unpush_rows(plumb_world *world, pl_liquid_scratch *scratch);
+
+//---- support.c -----------------------------------------------------------------------------------
+
+// Gives the grid's bodies what held them in the last steps, and makes room for what will in this one. False when out of memory.
+bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid);
+// Bodies have got their velocities: what the liquid did not know of.
+void pl_liquid_note_supports(plumb_world *world, real dt);
 
 //---- step.c --------------------------------------------------------------------------------------
 

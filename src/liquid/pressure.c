@@ -20,64 +20,10 @@
 #include <string.h>
 
 #define MOST_ITERATIONS 100
-#define COVERED         ((near_real)0.3)
-#define LEVEL           ((near_real)0.5)
-#define LEAST_GAP       ((near_real)0.25) // [cells] nearer surfaces would make the system stiff
-#define LEAST_ROOM      ((near_real)0.1)  // of a cell's surroundings that is not solid
 #define LINE            PL_LIQUID_SIDE
 #define CHUNK                                                                                      \
     8 // strips of a sum that is one part of a total: fixed, so that nothing decides its bits
 #define LEAST 64 // strips that are worth a thread
-
-//---- which cells have liquid ----------------------------------------------------------------------
-
-// Cell 0 is open.
-static void faces_of(const pl_liquid_grid *g, uint32_t c, near_real open[4])
-{
-    open[0] = g->open_u[c];
-    open[1] = g->open_u[g->right[c]];
-    open[2] = g->open_v[c];
-    open[3] = g->open_v[g->up[c]];
-}
-
-static bool has_points(const pl_liquid_grid *g, uint32_t c)
-{
-    return c != 0 && g->first[c + 1] > g->first[c];
-}
-
-// A cell with particles; or one that a body covers in part and that an open face joins to such a one: pressure would
-// leak out under hulls.
-static bool is_liquid(const pl_liquid_grid *g, uint32_t c)
-{
-    const uint32_t near[4] = { g->left[c], g->right[c], g->down[c], g->up[c] };
-    near_real open[4];
-    faces_of(g, c, open);
-    bool any = false, joined = false;
-    for (int k = 0; k < 4; ++k) {
-        any |= open[k] > 0;
-        joined |= open[k] > 0 && has_points(g, near[k]);
-    }
-    return any && (has_points(g, c) || (joined && g->cover[c] > COVERED));
-}
-
-// Where the density falls to one half on the way from a's centre to b's: exact for level surfaces at both centres and
-// half way. Pressure is 0 there, not at the centre of the air's cell (ghost fluid; Enright et al. 2003).
-near_real pl_liquid_gap(const pl_liquid_grid *g, uint32_t a, uint32_t b)
-{
-    const bool wet_a = g->row[a] != 0, wet_b = g->row[b] != 0;
-    if (wet_a == wet_b) {
-        return 1;
-    }
-    const uint32_t water = wet_a ? a : b, air = wet_a ? b : a;
-    const near_real room = 1 - g->solid[water], air_room = 1 - g->solid[air];
-    if (room < LEAST_ROOM || air_room < LEAST_ROOM) {
-        return 1;
-    }
-    const near_real in = (g->density[water] - g->solid[water]) / room;
-    const near_real out = (g->density[air] - g->solid[air]) / air_room;
-    const near_real gap = in > out ? (in - LEVEL) / (in - out) : 0;
-    return gap > 1 ? 1 : gap > LEAST_GAP ? gap : LEAST_GAP;
-}
 
 //---- the matrix ----------------------------------------------------------------------------------
 
@@ -95,7 +41,7 @@ static void fill_strip(pl_liquid_grid *g, uint32_t s)
         }
         const uint32_t left = g->left[c], right = g->right[c], down = g->down[c], up = g->up[c];
         near_real open[4];
-        faces_of(g, c, open);
+        pl_liquid_faces_of(g, c, open);
         open[0] *= pl_liquid_light_u(g, c);
         open[1] *= pl_liquid_light_u(g, right);
         open[2] *= pl_liquid_light_v(g, c);
@@ -117,30 +63,14 @@ static void fill_range(void *context, uint32_t first, uint32_t count)
     }
 }
 
-static bool line_has_points(const pl_liquid_grid *g, uint32_t c)
-{
-    return c != 0 && g->first[c + PL_LIQUID_SIDE] > g->first[c];
-}
-
-// Whether a line of a tile may have liquid: one that has points touches it.
-static bool may_have_liquid(const pl_liquid_grid *g, uint32_t c)
-{
-    return line_has_points(g, c) || line_has_points(g, g->down[c]) ||
-           line_has_points(g, g->up[c]) || has_points(g, g->left[c]) ||
-           has_points(g, g->right[c + PL_LIQUID_SIDE - 1]);
-}
-
 static bool add_line(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t tile, uint32_t line)
 {
     pl_liquid_grid *g = &scratch->grid;
     const uint32_t c = 1 + tile * PL_LIQUID_TILE + line * PL_LIQUID_SIDE;
     const uint32_t row = g->strip_count * PL_LIQUID_SIDE;
     bool any = false;
-    if (!may_have_liquid(g, c)) {
-        return true;
-    }
     for (uint32_t i = 0; i < PL_LIQUID_SIDE; ++i) {
-        const bool wet = is_liquid(g, c + i);
+        const bool wet = g->wet[c + i];
         g->row[c + i] = wet ? row + i : 0;
         any |= wet;
     }
@@ -170,8 +100,8 @@ static bool add_strips(pl_memory *memory, pl_liquid_scratch *scratch)
 bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
-    if (!pl_liquid_first_strip(memory, scratch) || !add_strips(memory, scratch) ||
-        !pl_liquid_make_grids(memory, scratch)) {
+    if (!pl_liquid_find_wet(memory, scratch) || !pl_liquid_first_strip(memory, scratch) ||
+        !add_strips(memory, scratch) || !pl_liquid_make_grids(memory, scratch)) {
         return false;
     }
     const size_t room =
@@ -190,69 +120,6 @@ bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch)
     pl_tasks_ranges(g->tasks, g->levels[0].end - 1, LEAST, fill_range, g);
     pl_liquid_fold_grids(g);
     return true;
-}
-
-//---- bodies --------------------------------------------------------------------------------------
-
-typedef struct ends {
-    uint32_t before, behind; // rows on both sides of a face; that of air: 0
-} ends;
-
-static ends ends_of(const pl_liquid_grid *g, const pl_liquid_link *link)
-{
-    const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-    return (ends){ g->row[other], g->row[link->cell] };
-}
-
-// What pressures P do to the sums of bodies: force over density h^2.
-static void sum_links(pl_liquid_grid *g, const near_real *p)
-{
-    for (uint32_t b = 0; b < g->body_count; ++b) {
-        g->bodies[b].sum[0] = g->bodies[b].sum[1] = g->bodies[b].sum[2] = 0;
-    }
-    for (uint32_t i = 0; i < g->link_count; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        const ends at = ends_of(g, link);
-        const double push = (double)(link->part * (p[at.before] - p[at.behind]));
-        double *sum = g->bodies[link->body].sum;
-        sum[link->upright ? 1 : 0] += push;
-        sum[2] += push * (double)link->arm;
-    }
-}
-
-// How fast a body's motion moves what closes a face, along its normal.
-static near_real speed_of(const pl_liquid_link *link, const double motion[3])
-{
-    return (near_real)(motion[link->upright ? 1 : 0] + motion[2] * (double)link->arm);
-}
-
-// Adds their part of A p to out; what it adds to p . A p.
-static double add_bodies(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
-{
-    double bend = 0;
-    if (push == 0 || g->link_count == 0) {
-        return 0;
-    }
-    sum_links(g, p);
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        const pl_liquid_body *b = &g->bodies[i];
-        bend +=
-            push * (b->inv_mass_x * b->sum[0] * b->sum[0] + b->inv_mass_y * b->sum[1] * b->sum[1] +
-                    b->inv_inertia * b->sum[2] * b->sum[2]);
-    }
-    for (uint32_t i = 0; i < g->link_count; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        const pl_liquid_body *b = &g->bodies[link->body];
-        const double motion[3] = { push * b->inv_mass_x * b->sum[0],
-                                   push * b->inv_mass_y * b->sum[1],
-                                   push * b->inv_inertia * b->sum[2] };
-        const near_real flow = link->part * speed_of(link, motion);
-        const ends at = ends_of(g, link);
-        out[at.before] += flow;
-        out[at.behind] -= flow;
-    }
-    out[0] = 0;
-    return bend;
 }
 
 // The same of what lies across wraps, where a grid goes on at its other side.
@@ -430,7 +297,7 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
         run(g, multiply_chunks, 0);
         near_real *way = g->vectors[PL_LIQUID_S], *product = g->vectors[PL_LIQUID_Z];
         const double bend =
-            sum_of(g) + add_bodies(g, way, product, push) + add_wraps(g, way, product);
+            sum_of(g) + pl_liquid_add_links(g, way, product, push) + add_wraps(g, way, product);
         if (!(bend > 0)) {
             return;
         }
@@ -480,41 +347,6 @@ static void slope_cells(void *context, uint32_t first, uint32_t count)
     }
 }
 
-static void push_bodies(pl_liquid_grid *g, double push)
-{
-    sum_links(g, g->vectors[PL_LIQUID_P]);
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        pl_liquid_body *b = &g->bodies[i];
-        b->impulse_x += push * b->sum[0];
-        b->impulse_y += push * b->sum[1];
-        b->turn += push * b->sum[2];
-        b->vx += push * b->inv_mass_x * b->sum[0];
-        b->vy += push * b->inv_mass_y * b->sum[1];
-        b->w += push * b->inv_inertia * b->sum[2];
-    }
-}
-
-void pl_liquid_follow_bodies(pl_liquid_grid *g)
-{
-    for (uint32_t i = 0; i < g->link_count; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        const pl_liquid_body *b = &g->bodies[link->body];
-        const double change[3] = { b->vx - b->seen[0], b->vy - b->seen[1], b->w - b->seen[2] };
-        const double more = (double)speed_of(link, change);
-        near_real *speed = link->upright ? &g->solid_v[link->cell] : &g->solid_u[link->cell];
-        *speed += link->part * (near_real)pl_liquid_held(more, PL_LIQUID_SPEED);
-    }
-    pl_liquid_see_bodies(g);
-}
-
-void pl_liquid_see_bodies(pl_liquid_grid *g)
-{
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        pl_liquid_body *b = &g->bodies[i];
-        b->seen[0] = b->vx, b->seen[1] = b->vy, b->seen[2] = b->w;
-    }
-}
-
 void pl_liquid_find_inflow(pl_liquid_grid *g)
 {
     pl_tasks_ranges(g->tasks, g->levels[0].end - 1, LEAST, inflow_range, g);
@@ -523,7 +355,7 @@ void pl_liquid_find_inflow(pl_liquid_grid *g)
 void pl_liquid_take_pressure(pl_liquid_grid *g, double push)
 {
     pl_liquid_cells(g, slope_cells);
-    push_bodies(g, push);
+    pl_liquid_push_bodies(g, push);
 }
 
 bool pl_liquid_project(pl_memory *memory, pl_liquid_scratch *scratch, double push)

@@ -69,6 +69,8 @@ static bool run_part(plumb_world *world, real dt)
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
     const double push = (double)d->density * h * h;
+    pl_liquid_bear_rests(g, push, (double)world->gravity.x * (double)dt,
+                         (double)world->gravity.y * (double)dt);
     const double amount =
         pl_liquid_thickest(&world->liquid) / (double)d->density * (double)dt / (h * h);
     if (amount > 0) {
@@ -119,9 +121,11 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     scratch->push_count = 0;
     scratch->grid.h = (near_real)h;
     scratch->grid.tasks = world->tasks;
+    scratch->grid.films = true;
     scratch->grid.body_count = scratch->grid.solid_count = 0;
     if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
-        !pl_liquid_find_solids(world, scratch, pl_liquid_region_of(liquid), dt)) {
+        !pl_liquid_find_solids(world, scratch, pl_liquid_region_of(liquid), dt) ||
+        !pl_liquid_recall_supports(&world->memory, liquid)) {
         return PLUMB_E_MEMORY;
     }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
@@ -144,7 +148,7 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
 plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
 {
     pl_liquid *liquid = &world->liquid;
-    (void)dt;
+    pl_liquid_note_supports(world, dt);
     memcpy(liquid->particles.data, liquid->scratch->moved.data,
            liquid->count * sizeof(plumb_particle));
     liquid->scratch->push_count = 0;

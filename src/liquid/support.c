@@ -40,8 +40,7 @@ static const pl_liquid_support *support_of(const pl_liquid *liquid, plumb_body b
 {
     const pl_liquid_support *all = liquid->supports.data;
     bool found = false;
-    const uint32_t at =
-        pl_find_key(all, liquid->support_count, sizeof *all, key_of(body), &found);
+    const uint32_t at = pl_find_key(all, liquid->support_count, sizeof *all, key_of(body), &found);
     return found ? &all[at] : NULL;
 }
 

@@ -178,7 +178,7 @@
     X("edges",             FINISH,      IF(pl_want_edges),           ONCE(pl_run_edges),                                     ONCE,           \
       "poses", "poses", ONE)                                                                                                                 \
     X("liquid motion",     FINISH,      IF(pl_want_liquid),          ONCE(pl_run_liquid_motion),                             ONCE,           \
-      "", "liquid", ONE)                                                                                                                     \
+      "velocities, masses", "liquid", ONE)                                                                                                                     \
     X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
       "", "air", ONE)                                                                                                                        \
     X("wave motion",         FINISH,      IF(pl_want_waves),            ONCE(pl_run_wave_motion),                                ONCE,              \

@@ -254,12 +254,20 @@ static bool check_liquid(const plumb_world *w)
     const pl_liquid *f = &w->liquid;
     if (f->settings_count > 1 || f->count > PLUMB_LIQUID_MAX ||
         f->phase_count > PLUMB_LIQUID_MAX_PHASES ||
-        (f->count + f->phase_count > 0 && f->settings_count == 0)) {
+        (f->count + f->phase_count + f->support_count > 0 && f->settings_count == 0)) {
         return false;
     }
     bool sound = f->settings_count == 0 || pl_liquid_desc_is_sound(pl_liquid_desc(f));
     for (uint32_t i = 0; i < f->phase_count && sound; ++i) {
         sound = pl_liquid_phase_is_sound(&pl_liquid_phases(f)[i], pl_liquid_desc(f)->density);
+    }
+    for (uint32_t i = 0; i < f->support_count && sound; ++i) {
+        const pl_liquid_support *all = f->supports.data;
+        sound = i == 0 || all[i - 1].key < all[i].key; // what has gone meanwhile is passed over
+        for (int k = 0; k < 3; ++k) {
+            sound &=
+                all[i].last[k] - all[i].last[k] == 0 && all[i].before[k] - all[i].before[k] == 0;
+        }
     }
     for (uint32_t i = 0; i < f->count && sound; ++i) {
         sound = pl_liquid_particle_is_sound(&pl_liquid_items(f)[i], f->phase_count);

@@ -316,12 +316,12 @@ static bool is_held(const pl_section *section)
 static bool is_counted(const pl_section *section)
 {
     static const char *const counted[] = {
-        "joints.items",     "sleep.islands",        "sleep.contacts",   "characters.items",
-        "liquid.settings",  "liquid.particles",     "liquid.phases",    "air.settings",
-        "air.cells",        "air.sources",          "laws.items",       "laws.orbits",
-        "fracture.pending", "softbodies.items",     "softbodies.nodes", "softbodies.edges",
-        "softbodies.bends", "softbodies.triangles", "softbodies.rings", "softbodies.pins",
-        "waves.items",      "waves.modes"
+        "joints.items",     "sleep.islands",    "sleep.contacts",       "characters.items",
+        "liquid.settings",  "liquid.particles", "liquid.phases",        "liquid.supports",
+        "air.settings",     "air.cells",        "air.sources",          "laws.items",
+        "laws.orbits",      "fracture.pending", "softbodies.items",     "softbodies.nodes",
+        "softbodies.edges", "softbodies.bends", "softbodies.triangles", "softbodies.rings",
+        "softbodies.pins",  "waves.items",      "waves.modes"
     };
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; ++i) {
         if (strcmp(section->name, counted[i]) == 0) {

@@ -50,7 +50,7 @@ typedef struct pl_liquid_point {
     X(near_real, open_u) X(near_real, open_v) /* 0..1 */                                             \
     X(near_real, density) /* of liquid round its centre, over that of rest; solid counts as full */  \
     X(near_real, solid) /* the solid's part in that */                                               \
-    X(uint8_t, known_u) X(uint8_t, known_v) X(uint8_t, fresh_u) X(uint8_t, fresh_v)
+    X(uint8_t, known_u) X(uint8_t, known_v) X(uint8_t, fresh_u) X(uint8_t, fresh_v) X(uint8_t, wet)
 #define PL_LIQUID_COLUMNS(X) PL_LIQUID_ZEROED(X) PL_LIQUID_WRITTEN(X)
 // clang-format on
 
@@ -97,6 +97,7 @@ typedef struct pl_liquid_body {
     double x, y, c, s;                 // [m] centre, rotation, at this time of the step
     double vx, vy, w;                  // [m/s], [rad/s]
     double seen[3];                    // that motion, as the faces that it closes have it
+    double held[3];                    // [N], [N m] what held it in the last step, as far as it goes on
     double inv_mass_x, inv_mass_y;     // [1/kg] 0: it is locked
     double inv_inertia;                // [1/(kg m^2)]
     double impulse_x, impulse_y, turn; // [N s], [N m s] since the step began
@@ -104,12 +105,19 @@ typedef struct pl_liquid_body {
     bool moves;                        // its velocity is unknown: else it is driven
 } pl_liquid_body;
 
+// What held a body in the last two steps beside gravity, forces and the liquid: contacts, joints, whatever else moved it.
+typedef struct pl_liquid_support {
+    uint64_t key;              // of its entity
+    double last[3], before[3]; // [N], [N m]
+} pl_liquid_support;
+
 // A part of a face that a moving body closes.
 typedef struct pl_liquid_link {
     uint32_t cell;  // whose left or lower face
     uint32_t body;  // place in the grid's list
     bool upright;   // the lower one
     near_real part; // 0..1
+    near_real rest; // 0..1 that something else closes
     near_real arm;  // [m] about the body's centre: a turn of 1 rad/s moves it so fast along the normal
 } pl_liquid_link;
 
@@ -165,6 +173,7 @@ typedef struct pl_liquid_grid {
     pl_liquid_link *links;
     pl_liquid_wrap *wraps;
     uint32_t wrap_count;
+    bool films;  // between bodies and what they touch
     double drag; // [kg] above 0: viscosity drags bodies, density times the square of a cell's side
     const pl_liquid_mixture *mixture; // null: all is one phase
     pl_liquid_solid *solids;
@@ -188,7 +197,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {
@@ -198,6 +207,8 @@ typedef struct pl_liquid {
     pl_buffer particles; // plumb_particle
     pl_buffer phases;    // plumb_liquid_phase, beside the first
     uint32_t phase_count;
+    uint32_t support_count;
+    pl_buffer supports;         // pl_liquid_support, by key
     pl_liquid_scratch *scratch; // NULL: no step has needed it yet
 } pl_liquid;
 
