@@ -15,7 +15,7 @@ for i = 0, 2 do
 end
 body { name = "stone", box { 0.6, 0.6 }, at = { 8.6, 0.3 }, material = rock, color = 7 }
 
-liquid { spacing = param("spacing", 0.045, 0.04, 0.2), box { 2.4, 2.4, at = { 1.2, 1.2 } } }
+liquid { spacing = param("spacing", 0.05, 0.04, 0.2), box { 2.4, 2.4, at = { 1.2, 1.2 } } }
 
 local function inside() return liquid_in(-0.01, -0.01, 10.01, 99) == liquid_in(-99, -99, 99, 99) end
 expect { "no water leaves the tank", always = true, test = inside }

@@ -16,8 +16,7 @@
 
 #define FILM                                                                                       \
     0.02 // [cells] of liquid that what touches leaves between: without it nothing would rise from the ground
-#define SHARPEST 0.2
-#define MARGIN   6.0 // cells round the particles in which solids are looked for
+#define MARGIN 6.0 // cells round the particles in which solids are looked for
 
 typedef pl_liquid_region region;
 
@@ -227,6 +226,14 @@ void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, doub
     for (uint32_t i = 0; i < g->solid_count; ++i) {
         if (g->solids[i].piece != PL_LIQUID_NONE) {
             place_solid(world, g, &g->solids[i]);
+        }
+    }
+    if (dt == 0) { // as the step begins: pieces keep where they lie in a body
+        pl_liquid_find_inner(g);
+    }
+    for (uint32_t i = 0; i < g->solid_count; ++i) {
+        if (pl_liquid_yields(g, &g->solids[i])) {
+            pl_liquid_draw_in(&g->solids[i]);
         }
     }
 }

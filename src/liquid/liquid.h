@@ -74,6 +74,20 @@ void pl_liquid_cells(pl_liquid_grid *grid, pl_range_fn *range);
 // Cell coordinate of a place, and what is left of it.
 int32_t pl_liquid_floor(double cells, near_real *fraction);
 
+//---- films.c -------------------------------------------------------------------------------------
+
+// Whether a solid's motion is an unknown, and it is so wide that it takes areas of faces.
+static inline bool pl_liquid_yields(const pl_liquid_grid *grid, const pl_liquid_solid *solid)
+{
+    return grid->films && !solid->thin && solid->body != PL_LIQUID_NONE &&
+           grid->bodies[solid->body].moves;
+}
+
+// Finds the sides of pieces that lie on others of their body: when they were placed for the first time in a step.
+void pl_liquid_find_inner(pl_liquid_grid *grid);
+// The corners of a solid that yields, drawn in by a film.
+void pl_liquid_draw_in(pl_liquid_solid *solid);
+
 //---- solids.c ------------------------------------------------------------------------------------
 
 // Closes faces by the grid's solids, as they are now. False when out of memory.

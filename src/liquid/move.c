@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_WAY 2.0  // cells that the solids listed at a tile are good for
-#define SKIN     0.01 // cells that are kept from solids
+#define LEAST_WIDTH 1.0  // [cells] of what is not thin
+#define MOST_WAY    2.0  // cells that the solids listed at a tile are good for
+#define SKIN        0.01 // cells that are kept from solids
 
 typedef pl_liquid_place place;
 
@@ -114,6 +115,12 @@ static place out_of(const pl_liquid_solid *s, place to, place *normal)
     return to;
 }
 
+static place slide(const pl_liquid_solid *s, place from, place to, place *normal)
+{
+    place unused; // from within, its far side would be the first that the way meets
+    return cut(s, true, s->count > 2 ? out_of(s, from, &unused) : from, to, normal);
+}
+
 static double larger(double a, double b)
 {
     return a > b ? a : b;
@@ -127,13 +134,14 @@ static double smaller(double a, double b)
 place pl_liquid_slide_all(const pl_liquid_grid *g, place from, place to, place *normal)
 {
     *normal = (place){ 0, 0 };
-    for (uint32_t i = 0; i < g->solid_count; ++i) {
+    for (uint32_t i = g->solid_count;
+         i-- > 0;) { // what stands, the first of them, has the last word
         const pl_liquid_solid *s = &g->solids[i];
         if (larger(from.x, to.x) < s->low_x - 1 || smaller(from.x, to.x) > s->high_x + 1 ||
             larger(from.y, to.y) < s->low_y - 1 || smaller(from.y, to.y) > s->high_y + 1) {
             continue;
         }
-        to = out_of(s, cut(s, true, from, to, normal), normal);
+        to = out_of(s, slide(s, from, to, normal), normal);
     }
     return to;
 }
@@ -141,15 +149,19 @@ place pl_liquid_slide_all(const pl_liquid_grid *g, place from, place to, place *
 static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place from, place to)
 {
     const double room = SKIN + MOST_WAY;
+    const double way = larger(fabs(to.x - from.x), fabs(to.y - from.y));
     place unused;
-    if (fabs(to.x - from.x) > MOST_WAY || fabs(to.y - from.y) > MOST_WAY) {
+    if (way > MOST_WAY) {
         return pl_liquid_slide_all(g, from, to, &unused);
     }
-    for (uint32_t k = 0; k < tile->solid_count; ++k) {
+    for (uint32_t k = tile->solid_count; k-- > 0;) { // as above
         const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
         if (to.x >= s->low_x - room && to.x <= s->high_x + room && to.y >= s->low_y - room &&
             to.y <= s->high_y + room) {
-            to = out_of(s, s->thin ? cut(s, false, from, to, &unused) : to, &unused);
+            to = s->thin                 ? cut(s, false, from, to, &unused)
+                 : way > LEAST_WIDTH / 2 ? slide(s, from, to, &unused)
+                                         : to;
+            to = out_of(s, to, &unused);
         }
     }
     return to;

@@ -16,10 +16,6 @@
 #include <math.h>
 
 #define SIDE PL_LIQUID_SIDE
-#define FILM                                                                                       \
-    0.02 // [cells] of liquid that bodies leave round them: what lies on the ground would not rise without it
-#define SHARPEST 0.2
-
 //---- faces ---------------------------------------------------------------------------------------
 
 // A solid in a tile: coordinates from the tile's corner, with x and y exchanged for lines y = at.
@@ -206,61 +202,44 @@ static bool close_areas(pl_memory *memory, pl_liquid_scratch *scratch, const vie
     return true;
 }
 
-// Corners go inward, so that each side does by a film.
-static view film_of(const view *v)
+// A piece as lines of a tile see it: as x = i, and upright as y = j, with its corners the other way round.
+static view view_of(const pl_liquid_grid *g, const pl_liquid_tile *tile, uint32_t t,
+                    const pl_liquid_solid *s, bool upright, bool film)
 {
-    view film = *v;
-    const int n = v->solid->count;
-    double nx[16], ny[16];
-    film.left = INFINITY, film.right = -INFINITY;
-    film.radius -= n < 3 || v->radius > 2 * FILM ? FILM : 0;
-    const double sharp = film.radius < v->radius ? 0 : FILM;
-    for (int i = 0; i < n; ++i) {
-        const int next = (i + 1) % n;
-        const double dx = v->x[next] - v->x[i], dy = v->y[next] - v->y[i];
-        const double length = sqrt(dx * dx + dy * dy);
-        nx[i] = length > 0 ? dy / length : 0;
-        ny[i] = length > 0 ? -dx / length : 0;
+    view v = { .radius = film ? s->film_radius : s->radius,
+               .left = INFINITY,
+               .right = -INFINITY,
+               .solid = s,
+               .body = s->body == PL_LIQUID_NONE ? NULL : &g->bodies[s->body],
+               .first = 1 + t * PL_LIQUID_TILE,
+               .upright = upright,
+               .corner_x = (double)tile->x * SIDE,
+               .corner_y = (double)tile->y * SIDE };
+    const double *all_x = film ? s->film_x : s->x, *all_y = film ? s->film_y : s->y;
+    for (int i = 0; i < s->count; ++i) {
+        const int k = upright ? s->count - 1 - i : i;
+        const double x = all_x[i] - v.corner_x, y = all_y[i] - v.corner_y;
+        v.x[k] = upright ? y : x;
+        v.y[k] = upright ? x : y;
+        v.left = v.x[k] - v.radius < v.left ? v.x[k] - v.radius : v.left;
+        v.right = v.x[k] + v.radius > v.right ? v.x[k] + v.radius : v.right;
     }
-    for (int i = 0; i < n; ++i) {
-        const int last = (i + n - 1) % n;
-        const double both = 1 + nx[i] * nx[last] + ny[i] * ny[last];
-        const double way = sharp / (both > SHARPEST ? both : SHARPEST);
-        film.x[i] -= way * (nx[i] + nx[last]);
-        film.y[i] -= way * (ny[i] + ny[last]);
-        film.left = film.x[i] - film.radius < film.left ? film.x[i] - film.radius : film.left;
-        film.right = film.x[i] + film.radius > film.right ? film.x[i] + film.radius : film.right;
-    }
-    return film;
+    return v;
 }
 
 static bool close_tile(pl_memory *memory, pl_liquid_scratch *scratch, const pl_liquid_tile *tile,
                        uint32_t t, const pl_liquid_solid *s)
 {
     pl_liquid_grid *g = &scratch->grid;
-    view v = { .radius = s->radius,
-               .left = s->low_x - (double)tile->x * SIDE,
-               .right = s->high_x - (double)tile->x * SIDE,
-               .solid = s,
-               .body = s->body == PL_LIQUID_NONE ? NULL : &g->bodies[s->body],
-               .first = 1 + t * PL_LIQUID_TILE,
-               .corner_x = (double)tile->x * SIDE,
-               .corner_y = (double)tile->y * SIDE };
-    view up = v;
-    up.upright = true;
-    up.left = s->low_y - v.corner_y, up.right = s->high_y - v.corner_y;
-    for (int i = 0; i < s->count; ++i) {
-        const int k = s->count - 1 - i; // mirrored: the other way round
-        v.x[i] = up.y[k] = s->x[i] - v.corner_x;
-        v.y[i] = up.x[k] = s->y[i] - v.corner_y;
-    }
+    const view v = view_of(g, tile, t, s, false, false), up = view_of(g, tile, t, s, true, false);
     cover_cells(g, &v);
     if (s->thin &&
         (!close_crossed(memory, scratch, &v, &up) || !close_crossed(memory, scratch, &up, &v))) {
         return false;
     }
-    if (g->films && v.body != NULL && v.body->moves && !s->thin) {
-        const view film = film_of(&v), film_up = film_of(&up);
+    if (pl_liquid_yields(g, s)) {
+        const view film = view_of(g, tile, t, s, false, true);
+        const view film_up = view_of(g, tile, t, s, true, true);
         return close_areas(memory, scratch, &v, &film) &&
                close_areas(memory, scratch, &up, &film_up);
     }

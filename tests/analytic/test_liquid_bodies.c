@@ -97,6 +97,46 @@ static void crates_press_no_water_away(void **state)
     plumb_world_destroy(w);
 }
 
+// A boat of three boxes: its seams lie under water, and let nothing in.
+static void boats_of_pieces_stay_dry(void **state)
+{
+    (void)state;
+    const double places[3][4] = { { 0, -0.3, 0.8, 0.15 },
+                                  { -0.65, 0.3, 0.15, 0.45 },
+                                  { 0.65, 0.3, 0.15, 0.45 } };
+    plumb_world *w = tank_make(4, 4, 0.05);
+    const plumb_body boat = sim_body(w, PLUMB_DYNAMIC, 2.01, 2.03, 0);
+    for (int i = 0; i < 3; ++i) {
+        const double *p = places[i];
+        const plumb_shape_desc d = { .kind = PLUMB_BOX,
+                                     .center = sim_vec(p[0], p[1]),
+                                     .half = sim_vec(p[2], p[3]),
+                                     .density = 700 };
+        assert_false(plumb_is_null(plumb_shape_create(w, boat, &d)));
+    }
+    tank_fill(w, 0, 0, 4, 1.5);
+    sim_run(w, 1200, HZ60);
+    double bottom = 0, turned = 0;
+    for (int i = 0; i < 600; ++i) {
+        sim_step(w, HZ60);
+        bottom += (sim_y(w, boat) - 0.45) / 600;
+        turned += sim_angle(w, boat) / 600;
+    }
+    // 714 kg over a width of 1.6 m, in 6 m^2 of water.
+    const double draft = (6 + 0.714) / 4 - bottom, wanted = 0.714 / 1.6;
+    print_message("a boat: draft %.3f m, by its weight %.3f; turned by %.3f\n", draft, wanted,
+                  turned);
+    assert_near(draft, wanted, 0.03);
+    assert_true(fabs(turned) < 0.05);
+    int count;
+    const plumb_particle *p = plumb_liquid_particles(w, &count);
+    for (int i = 0; i < count; ++i) {
+        const plumb_vec2 at = plumb_body_local_point(w, boat, p[i].position);
+        assert_false(fabs((double)at.x) < 0.4 && (double)at.y > -0.1 && (double)at.y < 0.5);
+    }
+    plumb_world_destroy(w);
+}
+
 //---- what is held --------------------------------------------------------------------------------
 
 // Archimedes: of a body that something holds in water at rest, water bears what it displaces, wherever it lies in the cells and however it is turned, and does not turn it about its middle. With faces closed by their chords alone it was off by up to a cell's height.
@@ -256,6 +296,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_float_by_their_density),
         cmocka_unit_test(crates_press_no_water_away),
+        cmocka_unit_test(boats_of_pieces_stay_dry),
         cmocka_unit_test(water_bears_what_is_displaced),
         cmocka_unit_test(what_hangs_stirs_nothing),
         cmocka_unit_test(what_is_light_leaves_the_ground),

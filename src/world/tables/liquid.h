@@ -132,8 +132,11 @@ typedef struct pl_liquid_solid {
     uint32_t piece, body; // body: of the list above; PL_NONE: static. piece: PL_NONE, it stays where it is
     int count;            // corners
     bool thin;            // less than a cell across
-    double radius, width; // cells
+    double radius;        // cells
     double x[16], y[16];  // cells, at this time of the step
+    // The same drawn in by a film, but where it lies on its body's other pieces; of bodies that yield.
+    double film_radius, film_x[16], film_y[16];
+    uint32_t inner; // bits of sides that lie so
     double low_x, low_y, high_x, high_y;
 } pl_liquid_solid;
 
