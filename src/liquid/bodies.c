@@ -14,8 +14,6 @@
 #include <math.h>
 #include <string.h>
 
-#define FILM                                                                                       \
-    0.02 // [cells] of liquid that what touches leaves between: without it nothing would rise from the ground
 #define MARGIN 6.0 // cells round the particles in which solids are looked for
 
 typedef pl_liquid_region region;
@@ -228,7 +226,7 @@ void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, doub
             place_solid(world, g, &g->solids[i]);
         }
     }
-    if (dt == 0) { // as the step begins: pieces keep where they lie in a body
+    if (dt == 0 && g->films) { // as the step begins: pieces keep where they lie in a body
         pl_liquid_find_inner(g);
     }
     for (uint32_t i = 0; i < g->solid_count; ++i) {

@@ -134,8 +134,8 @@ static double smaller(double a, double b)
 place pl_liquid_slide_all(const pl_liquid_grid *g, place from, place to, place *normal)
 {
     *normal = (place){ 0, 0 };
-    for (uint32_t i = g->solid_count;
-         i-- > 0;) { // what stands, the first of them, has the last word
+    // What stands, the first of them, has the last word.
+    for (uint32_t i = g->solid_count; i-- > 0;) {
         const pl_liquid_solid *s = &g->solids[i];
         if (larger(from.x, to.x) < s->low_x - 1 || smaller(from.x, to.x) > s->high_x + 1 ||
             larger(from.y, to.y) < s->low_y - 1 || smaller(from.y, to.y) > s->high_y + 1) {

@@ -27,6 +27,24 @@ static plumb_body add_box(plumb_world *w, double x, double y, double angle, doub
     return b;
 }
 
+// Means over a second.
+typedef struct means {
+    double force, torque; // of the joint, if there is one: along y
+    double rms;           // of the water
+} means;
+
+static means watch(plumb_world *w, const plumb_joint *j)
+{
+    means m = { 0, 0, 0 };
+    for (int k = 0; k < 60; ++k) {
+        sim_step(w, HZ60);
+        m.force += j != NULL ? (double)plumb_joint_force(w, *j).y / 60 : 0;
+        m.torque += j != NULL ? (double)plumb_joint_torque(w, *j) / 60 : 0;
+        m.rms += tank_look(w).rms / 60;
+    }
+    return m;
+}
+
 //---- what floats ---------------------------------------------------------------------------------
 
 // A box that does not turn floats as deep as its density says.
@@ -76,12 +94,7 @@ static void crates_press_no_water_away(void **state)
     plumb_world *w = tank_make(6, 9, 0.05);
     tank_fill(w, 0, 0, 6, 1.5);
     for (int i = 0; i < 60; ++i) {
-        const plumb_shape_desc d = { .kind = PLUMB_BOX,
-                                     .half = sim_vec(0.15, 0.15),
-                                     .density = 500 };
-        const plumb_body b =
-            sim_body(w, PLUMB_DYNAMIC, 0.3 + 0.45 * (i % 12), 1.8 + 0.45 * (i / 12), 0);
-        assert_false(plumb_is_null(plumb_shape_create(w, b, &d)));
+        add_box(w, 0.3 + 0.45 * (i % 12), 1.8 + 0.45 * (i / 12), 0, 0.15, 0.15, 500);
     }
     double least = INFINITY;
     for (int second = 0; second < 10; ++second) {
@@ -139,7 +152,8 @@ static void boats_of_pieces_stay_dry(void **state)
 
 //---- what is held --------------------------------------------------------------------------------
 
-// Archimedes: of a body that something holds in water at rest, water bears what it displaces, wherever it lies in the cells and however it is turned, and does not turn it about its middle. With faces closed by their chords alone it was off by up to a cell's height.
+// Archimedes: of a body that something holds in water at rest, water bears what it displaces, wherever it lies in the cells and
+// however it is turned, and does not turn it about its middle. With faces closed by chords alone it was off by up to a cell's height.
 static void water_bears_what_is_displaced(void **state)
 {
     (void)state;
@@ -155,16 +169,11 @@ static void water_bears_what_is_displaced(void **state)
             w, (plumb_joint_desc){ .kind = PLUMB_WELD, .body_b = b, .anchor = sim_vec(x, y) });
         tank_fill(w, 0, 0, 3, 2);
         sim_run(w, 240, HZ60);
-        double force = 0, turn = 0;
-        for (int k = 0; k < 60; ++k) {
-            sim_step(w, HZ60);
-            force += (double)plumb_joint_force(w, j).y / 60;
-            turn += (double)plumb_joint_torque(w, j) / 60;
-        }
+        const means m = watch(w, &j);
         const double weight = 4 * hx * hy * 1000 * SIM_G;
         // On the body: it weighs half of what it displaces.
-        const double off = (0.5 * weight - force) / weight - 1;
-        worst = fmax(worst, fabs(off)), worst_turn = fmax(worst_turn, fabs(turn) / weight);
+        const double off = (0.5 * weight - m.force) / weight - 1;
+        worst = fmax(worst, fabs(off)), worst_turn = fmax(worst_turn, fabs(m.torque) / weight);
         plumb_world_destroy(w);
     }
     print_message("12 boxes held in water: lift off by at most %.2g, its arm %.2g m\n", worst,
@@ -185,17 +194,12 @@ static void what_hangs_stirs_nothing(void **state)
                                                            .anchor_b = sim_vec(1.03, 1.22) });
     tank_fill(w, 0, 0, 2, 2);
     sim_run(w, 900, HZ60);
-    double force = 0, rms = 0;
-    for (int k = 0; k < 60; ++k) {
-        sim_step(w, HZ60);
-        force += (double)plumb_joint_force(w, j).y / 60;
-        rms += tank_look(w).rms / 60;
-    }
+    const means m = watch(w, &j);
     const double wanted = 0.16 * 2000 * SIM_G;
     print_message("a box that hangs in water: pulls by %.4f of what it weighs; %.3f m/s\n",
-                  force / wanted, rms);
-    assert_near(force / wanted, 1, 0.02);
-    assert_true(rms < 0.03);
+                  m.force / wanted, m.rms);
+    assert_near(m.force / wanted, 1, 0.02);
+    assert_true(m.rms < 0.03);
     plumb_world_destroy(w);
 }
 
@@ -254,11 +258,7 @@ static void what_is_heavy_lies_still(void **state)
         const plumb_body high = add_box(w, 1.5, 0.7, 0, 0.2, 0.2, densities[i]);
         tank_fill(w, 0, 0, 3, 2);
         sim_run(w, 900, HZ60);
-        double rms = 0;
-        for (int k = 0; k < 60; ++k) {
-            sim_step(w, HZ60);
-            rms += tank_look(w).rms / 60;
-        }
+        const double rms = watch(w, NULL).rms;
         print_message("two boxes of %.0f on the ground: at %.3f, %.3f m; water %.3f m/s\n",
                       densities[i], sim_y(w, low), sim_y(w, high), rms);
         assert_near(sim_y(w, low), 0.25, 0.01);
