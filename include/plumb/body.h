@@ -55,6 +55,20 @@ typedef struct plumb_body_desc {
     plumb_real break_impulse;    ///< [N s] >= 0
     plumb_real break_energy;     ///< [J] >= 0
     plumb_real break_cells;      ///< [-] 0..64 that it breaks into at most; 0 means 12
+    plumb_real temperature;      ///< [K] 0..1e6: see plumb/heat.h; 0: it takes no part in heat
+    plumb_real heat_capacity;    ///< [J/(kg K)] up to 1e9; 0 means 1000
+    plumb_real conductance;      ///< [W/K] 0..1e9 of its half of each contact
+    plumb_real emissivity;       ///< [-] 0..1 of its surface
+    plumb_real ambient;          ///< [K] up to 1e6 around it; 0 means 293
+    plumb_real heating;          ///< [W] |heating| <= 1e12
+    plumb_real melting_point;    ///< [K] 0..1e6; 0: it does not melt
+    plumb_real latent_heat;      ///< [J/kg] 0..1e12
+    plumb_real melt_phase;       ///< [-] 0..7 of the liquid that it melts into
+    plumb_real ignition;         ///< [K] 0..1e6; 0: it does not burn
+    plumb_real burn_rate;        ///< [m/s] 0..1e3 at which its surface burns away
+    plumb_real burn_heat;        ///< [J/kg] 0..1e12 of what burns that stays with the body
+    plumb_real growth;           ///< [1/s] |growth| <= 100
+    plumb_real smallest;         ///< [m] up to 1e4; 0 means 0.02
     bool disabled;               ///< out of the simulation: see plumb_body_set_enabled
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;

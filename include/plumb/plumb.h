@@ -24,6 +24,7 @@
 #include "plumb/effect.h"
 #include "plumb/law.h"
 #include "plumb/fracture.h"
+#include "plumb/heat.h"
 #include "plumb/air.h"
 #include "plumb/liquid.h"
 #include "plumb/softbody.h"

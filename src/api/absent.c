@@ -7,6 +7,7 @@
 #include "accuracy/dial.h"
 #include "air/air.h"
 #include "api/fracture.h"
+#include "api/heat.h"
 #include "character/character.h"
 #include "continuous/continuous.h"
 #include "effects/drag.h"
@@ -14,6 +15,7 @@
 #include "effects/engine.h"
 #include "effects/fluid.h"
 #include "effects/gather.h"
+#include "effects/heat.h"
 #include "effects/laws.h"
 #include "effects/waves.h"
 #include "event/event.h"
@@ -197,6 +199,13 @@ GIVES(const plumb_body_break *, plumb_world_body_break_events, (count != NULL ? 
       const plumb_world *world, int *count)
 GIVES(const plumb_body *, plumb_world_body_break_parts, (count != NULL ? (*count = 0) : 0, NULL),
       const plumb_world *world, int *count)
+#endif
+
+#if !PL_HAS(HEAT)
+WANT(pl_want_heat)
+RESERVE(pl_heat_reserve_flow)
+VOID(pl_heat_flow, plumb_world *world, double dt)
+GIVES(plumb_result, pl_heat_run, PLUMB_OK, plumb_world *world, const char *function)
 #endif
 
 #if !PL_HAS(LIQUID)

@@ -3,6 +3,7 @@
 // Reads: arguments, checked before anything changes. Writes: one body row.
 // Cost: O(1); mass functions and teleport O(pieces of the body).
 #include "world/body_settings.h"
+#include "world/heat_list.h"
 #include "world/destroy.h"
 #include "world/stale_edges.h"
 #include "world/island.h"
@@ -91,6 +92,11 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
     pl_body_settings_set(world, row, &(pl_body_settings){ PL_BODY_ROWS(PL_ROW_RECORD, MEANT) });
 #undef MEANT
     PL_BODY_ROWS(PL_ROW_FILL, b)
+    pl_heat heat = pl_heat_of_desc(desc);
+    if (pl_heat_is_any(&heat)) {
+        heat.body = b->entity[row];
+        pl_heat_set(world, &heat);
+    }
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;
@@ -101,11 +107,17 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
     pl_body_place(world, row, desc->position, desc->angle);
 }
 
+static bool reserve_heat(plumb_world *world, const plumb_body_desc *desc)
+{
+    const pl_heat heat = pl_heat_of_desc(desc);
+    return !pl_heat_is_any(&heat) || pl_heat_reserve(world, 1);
+}
+
 plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body_desc *desc,
                             plumb_body *body)
 {
     if (!pl_registry_reserve(&world->memory, &world->registry, 1) || !pl_rows_reserve(world, 1) ||
-        !pl_body_settings_reserve(world)) {
+        !pl_body_settings_reserve(world) || !reserve_heat(world, desc)) {
         return pl_fail_memory(world, fn);
     }
     const bool asleep = desc->asleep && !desc->disabled && !world->desc.no_sleep;

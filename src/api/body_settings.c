@@ -3,6 +3,7 @@
 //
 // Reads: arguments, checked first. Writes: columns, the body's record (world/body_settings.c). Cost: O(1).
 #include "world/body_settings.h"
+#include "world/heat_list.h"
 #include "world/island.h"
 #include "world/told.h"
 #include "plumb/fracture.h"
@@ -124,6 +125,7 @@ NUMBER_SETTER(break_cells)
         return PLUMB_OK;                                                                           \
     }
 #define SETTER_RECORD(...)
+#define SETTER_HEAT(...)
 #define SETTER_OWN(...)
 PL_BODY_ROWS(SETTER, )
 
@@ -135,6 +137,7 @@ PL_BODY_ROWS(SETTER, )
         return row == PL_NONE ? (type)0 : (type)world->bodies.name[row];                           \
     }
 #define GETTER_RECORD(...)
+#define GETTER_HEAT(...)
 #define GETTER_OWN(...)
 PL_BODY_ROWS(GETTER, )
 
@@ -180,6 +183,10 @@ plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_bod
     PL_BODY_ROWS(PL_ROW_GET, b)
 #define GET(name, initial) desc->name = t.name;
     PL_BODY_ROWS(PL_ROW_RECORD, GET)
+#undef GET
+    const pl_heat heat = pl_heat_get(world, body);
+#define GET(name, initial) desc->name = (plumb_real)heat.name;
+    PL_BODY_ROWS(PL_ROW_HEAT, GET)
 #undef GET
     return PLUMB_OK;
 }

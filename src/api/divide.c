@@ -11,6 +11,7 @@
 
 #include "plumb/math.h"
 #include "world/body_settings.h"
+#include "world/heat_list.h"
 #include "world/check.h"
 #include "world/destroy.h"
 #include "world/filter.h"
@@ -33,6 +34,7 @@ typedef struct division {
     double x, y;          // [m] centre
     double vx, vy, w;
     double weight; // of all children
+    pl_heat heat;  // of all of it
     bool given;    // masses are shares of the mass that there was, not of shapes
 } division;
 
@@ -62,6 +64,7 @@ static plumb_result open_division(division *d)
         d->weight += all[i].weight;
         d->keeper = all[i].weight > all[d->keeper].weight ? i : d->keeper;
     }
+    d->heat = pl_heat_get(world, d->body);
     d->mass = (double)b->mass[row];
     d->inertia = (double)b->inertia[row];
     d->x = (double)b->center_x[row];
@@ -108,6 +111,7 @@ static bool reserve(const division *d)
            pl_buffer_reserve(memory, &world->settings.items,
                              ((size_t)world->settings.count + bodies + 1) *
                                  sizeof(pl_body_settings)) &&
+           (pl_heat_find(world, d->body) == NULL || pl_heat_reserve(world, bodies)) &&
            pl_pieces_reserve(world, (uint32_t)pieces) &&
            pl_pool_reserve(memory, &world->vertices, corners) &&
            pl_buffer_reserve(memory, &world->made, pieces * sizeof(pl_made_piece)) &&
@@ -132,6 +136,7 @@ static void share_settings(const division *d, uint32_t row, double share, bool k
         t.break_cells = 0;
     }
     pl_body_settings_set(world, row, &t);
+    pl_heat_share(world, world->bodies.entity[row], &d->heat, share);
 }
 
 static void make_row(const division *d, pl_child *child)

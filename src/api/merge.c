@@ -13,6 +13,7 @@
 #include "world/check.h"
 #include "world/destroy.h"
 #include "world/filter.h"
+#include "world/heat_list.h"
 #include "world/island.h"
 #include "world/joint_list.h"
 #include "world/rows.h"
@@ -328,6 +329,7 @@ plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plumb_body ot
         return pl_fail_memory(world, __func__);
     }
     const mapping m = frame_in(world, row, gone);
+    pl_heat_merge(world, body, first.mass, other, second.mass);
     hand_on_joints(world, &m, other, body);
     move_shapes(world, __func__, &m, pl_body_row(world, other), body);
     pl_destroy_entity(world, other.entity);

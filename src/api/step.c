@@ -1,6 +1,7 @@
 // step.c - the public step: what was asked for beforehand, the step itself, who looks on.
 #include "api/command.h"
 #include "api/fracture.h"
+#include "api/heat.h"
 #include "step/step.h"
 #include "world/check.h"
 #include "world/observer.h"
@@ -13,6 +14,9 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     PL_TRY(pl_commands_run(world));
     if ((world->fracture.pending_count | world->fracture.break_count) != 0) {
         PL_TRY(pl_breaks_run(world, __func__));
+    }
+    if ((world->heats.count | world->heats.gone_count) != 0) {
+        PL_TRY(pl_heat_run(world, __func__));
     }
     pl_step_observer *observer = world->observer;
     if (observer != NULL && observer->begin != NULL) {

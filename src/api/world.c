@@ -210,6 +210,12 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->checking);
     pl_buffer_free(&memory, &world->checked);
     pl_buffer_free(&memory, &world->settings.items);
+    pl_buffer_free(&memory, &world->heats.items);
+    pl_buffer_free(&memory, &world->heats.state);
+    pl_buffer_free(&memory, &world->heats.bodies);
+    pl_buffer_free(&memory, &world->heats.links);
+    pl_buffer_free(&memory, &world->heats.keys);
+    pl_buffer_free(&memory, &world->heats.gone);
     pl_buffer_free(&memory, &world->targets.items);
     pl_buffer_free(&memory, &world->tracks.items);
     pl_parts_free(&memory, &world->parts);

@@ -70,6 +70,34 @@
       "that breaking takes from the hit; dynamic bodies")                                          \
     R(X, RECORD, REAL, break_cells, SAID(break_cells), "1", FROM(0, 64), 0, NO_ZERO,                \
       "parts that it breaks into at most; 0: twelve; dynamic bodies")                               \
+    R(X, HEAT, REAL, temperature, SAID(temperature), "K", FROM(0, 1e6), 0, NO_ZERO,                 \
+      "of all of it; 0: it takes no part in heat. Bodies that are not dynamic hold it")             \
+    R(X, HEAT, REAL, heat_capacity, SAID(heat_capacity), "J/(kg K)", ABOVE(0, 1e9), 1000, NO_ZERO,  \
+      "energy that warms a kilogram by a kelvin; dynamic bodies")                                   \
+    R(X, HEAT, REAL, conductance, SAID(conductance), "W/K", FROM(0, 1e9), 0, NO_ZERO,               \
+      "of its half of each contact")                                                                \
+    R(X, HEAT, REAL, emissivity, SAID(emissivity), "1", FROM(0, 1), 0, NO_ZERO,                     \
+      "of its surface, which glows and takes in what its surroundings glow; dynamic bodies")        \
+    R(X, HEAT, REAL, ambient, SAID(ambient), "K", ABOVE(0, 1e6), 293, NO_ZERO,                      \
+      "temperature of what surrounds it; dynamic bodies")                                           \
+    R(X, HEAT, REAL, heating, SAID(heating), "W", FROM(-1e12, 1e12), 0, NO_ZERO,                    \
+      "that it gets, or loses; dynamic bodies")                                                     \
+    R(X, HEAT, REAL, melting_point, SAID(melting_point), "K", FROM(0, 1e6), 0, NO_ZERO,             \
+      "where it melts; 0: nowhere; dynamic bodies")                                                 \
+    R(X, HEAT, REAL, latent_heat, SAID(latent_heat), "J/kg", FROM(0, 1e12), 0, NO_ZERO,             \
+      "that melting takes; dynamic bodies")                                                         \
+    R(X, HEAT, REAL, melt_phase, SAID(melt_phase), "1", FROM(0, 7), 0, NO_ZERO,                     \
+      "of the liquid that it melts into; dynamic bodies")                                           \
+    R(X, HEAT, REAL, ignition, SAID(ignition), "K", FROM(0, 1e6), 0, NO_ZERO,                       \
+      "from which on it burns; 0: it does not; dynamic bodies")                                     \
+    R(X, HEAT, REAL, burn_rate, SAID(burn_rate), "m/s", FROM(0, 1e3), 0, NO_ZERO,                   \
+      "at which its surface burns away; dynamic bodies")                                            \
+    R(X, HEAT, REAL, burn_heat, SAID(burn_heat), "J/kg", FROM(0, 1e12), 0, NO_ZERO,                 \
+      "of what burns that stays with the body; dynamic bodies")                                     \
+    R(X, HEAT, REAL, growth, SAID(growth), "1/s", FROM(-100, 100), 0, NO_ZERO,                      \
+      "size grows by e^(growth t)")                                                                 \
+    R(X, HEAT, REAL, smallest, SAID(smallest), "m", ABOVE(0, 1e4), 0.02, NO_ZERO,                   \
+      "root of its area below which what melts, burns or shrinks is gone")                          \
     R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
 // clang-format on
 

@@ -40,6 +40,10 @@
     X(FRACTURE, "fracture", "", "src/api/breaking.c src/api/divide.c src/api/fracture.c src/api/fragments.c src/api/merge.c "  \
       "src/event/breaking.c src/geometry/region.c", "break_force break_impulse break_energy break_cells",                      \
       "bodies that are cut, break, merge, grow and shrink")                                                                    \
+    X(HEAT, "heat", "fracture", "src/effects/heat.c src/api/heat_run.c",                                                       \
+      "temperature heat_capacity conductance emissivity ambient heating melting_point latent_heat melt_phase ignition "        \
+      "burn_rate burn_heat growth smallest",                                                                                   \
+      "bodies that warm, melt, burn and grow")                                                                                 \
     X(LIQUID, "liquid", "", "src/liquid/%", "", "particles that flow")                                                         \
     X(AIR, "air", "liquid", "src/air/%", "", "air that flows round shapes, with smoke and heat")                               \
     X(SOFTBODIES, "softbodies", "", "src/softbody/%", "", "ropes, nets and cloth, jelly, skins with gas")                      \

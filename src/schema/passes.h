@@ -62,6 +62,8 @@
       "pairs", "sensors", ONE)                                                                                                               \
     X("breakable",         CONTACTS,    IF(pl_want_breaking),        ONCE(pl_run_breakable),                                 ONCE,           \
       "body settings, velocities", "events", ONE)                                                                                                        \
+    X("heat",              CONTACTS,    IF(pl_want_heat),            ONCE(pl_run_heat),                                      ONCE,           \
+      "pairs, islands", "", ONE)                                                                                                             \
     X("contact systems",   EDITS,       ALWAYS,                      HOME,                                                   REFRESHES,      \
       "", "", ONE)                                                                                                                           \
     X("gravity",           GRAPH,       IF(pl_want_gravity),         ONCE(pl_run_gravity),                                   REPLACEABLE,    \
@@ -195,6 +197,8 @@
       "sensors, poses, pieces", "sensors, events, islands", ONE)                                                                                   \
     X("burning",           END,         IF(pl_want_engines),         ONCE(pl_run_burning),                                   ONCE,           \
       "body settings", "masses, body settings, islands", ONE)                                                                                \
+    X("heat flow",         END,         IF(pl_want_heat),            ONCE(pl_run_heat_flow),                                 ONCE,           \
+      "heat, pairs, islands, pieces, masses", "heat", ONE)                                                                                   \
     X("end systems",       END,         ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
     X("measure sums",      END,         IF(pl_want_measures),        ONCE(pl_run_measure_close),                             ONCE,           \

@@ -4,7 +4,7 @@
 //
 //   X        handed through to R, so that a list of rows can be part of another list
 //   store    COLUMN: a column of that name; RECORD: a member of the record of bodies that few have
-//            (effects/effects.h); STATE: the descriptor is kept, and this member is saved and hashed; HERE: it is
+//            (effects/effects.h); HEAT: of the record of those that have heat (world/heat_list.h); STATE: the descriptor is kept, and this member is saved and hashed; HERE: it is
 //            kept and no state; OWN: code of its own keeps it
 //   kind     REAL, INT, VEC2, BOOL, or an enum: MIX, BODY_TYPE, Y_AXIS, SOLVER, JOINT_KIND
 //   name     of the descriptor's member
@@ -84,6 +84,7 @@
     PL_ROW_COLUMN_##store(X, PL_COLUMN_##kind, name, WITHIN_##range)
 #define PL_ROW_COLUMN_COLUMN(X, type, name, ...) X(type, name, __VA_ARGS__)
 #define PL_ROW_COLUMN_RECORD(...)
+#define PL_ROW_COLUMN_HEAT(...)
 #define PL_ROW_COLUMN_OWN(...)
 
 // X(desc.member) of a row that is state in a descriptor that is kept.
@@ -102,6 +103,15 @@
 #define PL_ROW_RECORD_RECORD(X, name, initial) X(name, initial)
 #define PL_ROW_RECORD_COLUMN(...)
 #define PL_ROW_RECORD_OWN(...)
+#define PL_ROW_RECORD_HEAT(...)
+
+// The same of a member of the record of heat.
+#define PL_ROW_HEAT(X, store, kind, name, word, unit, range, initial, ...)                         \
+    PL_ROW_HEAT_##store(X, name, initial)
+#define PL_ROW_HEAT_HEAT(X, name, initial) X(name, initial)
+#define PL_ROW_HEAT_RECORD(...)
+#define PL_ROW_HEAT_COLUMN(...)
+#define PL_ROW_HEAT_OWN(...)
 
 // What the member of `desc` means.
 #define PL_MEANS(type, name, initial, zero)                                                        \
@@ -113,6 +123,7 @@
 #define PL_ROW_FILL_COLUMN(table, type, name, initial, zero)                                       \
     (table)->name[row] = PL_MEANS(type, name, initial, zero);
 #define PL_ROW_FILL_RECORD(...)
+#define PL_ROW_FILL_HEAT(...)
 #define PL_ROW_FILL_OWN(...)
 #define PL_ROW_GET(table, store, kind, name, word, unit, range, initial, zero, text)               \
     PL_ROW_GET_##store(table, PL_MEMBER_##kind, name, zero)
@@ -120,6 +131,7 @@
     desc->name = (type)(table)->name[row];                                                         \
     PL_GET_##zero(desc->name == 0)
 #define PL_ROW_GET_RECORD(...)
+#define PL_ROW_GET_HEAT(...)
 #define PL_ROW_GET_OWN(...)
 #define PL_GET_ZERO(member) desc->member = PL_GET_IS
 #define PL_GET_NO_ZERO      PL_GET_NOTHING

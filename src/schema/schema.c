@@ -26,6 +26,7 @@
       .zero = AT_##none },
 #define SAVED_COLUMN     true
 #define SAVED_RECORD     true
+#define SAVED_HEAT       true
 #define SAVED_STATE      true
 #define SAVED_OWN        true
 #define SAVED_HERE       false

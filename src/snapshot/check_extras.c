@@ -14,6 +14,7 @@
 #include "world/wrap.h"
 #include "world/rows.h"
 
+#include <math.h>
 #include <string.h>
 
 #define CHECK_REALS(path) pl_are_reals(&(path), sizeof(path) / (sizeof(real)))
@@ -359,6 +360,41 @@ static bool check_breaks(const plumb_world *w)
     return sound;
 }
 
+static bool check_heat(const pl_suspect *s, const pl_heat *heat)
+{
+    plumb_body_desc desc = { 0 };
+#define TAKE(name, initial) desc.name = (plumb_real)heat->name;
+    PL_BODY_ROWS(PL_ROW_HEAT, TAKE)
+#undef TAKE
+    const double sum = heat->molten + heat->burnt + heat->grown;
+    return pl_suspect_row(s, heat->body) != PL_NONE && pl_desc_is_sound(PLUMB_TABLE_BODY, &desc) &&
+           sum - sum == 0 && heat->molten >= 0 && heat->molten <= (double)PL_MASS_MOST &&
+           fabs(heat->burnt) <= (double)PL_MASS_MOST && fabs(heat->grown) <= PL_HEAT_MOST_GROWN;
+}
+
+static bool check_heats(const pl_suspect *s)
+{
+    const pl_heats *heats = &s->world.heats;
+    const pl_heat *all = pl_heat_items(heats);
+    bool sound = heats->state_count <= 1 && (heats->count == 0 || heats->state_count == 1);
+    for (uint32_t i = 0; i < heats->count && sound; ++i) {
+        sound = check_heat(s, &all[i]) &&
+                (i == 0 || all[i - 1].body.entity.index < all[i].body.entity.index);
+    }
+    if (heats->state_count == 0 || !sound) {
+        return sound;
+    }
+    const pl_heat_state *state = pl_heat_state_of(heats);
+    const plumb_heat_sums *t = &state->sums;
+    double sum = t->heating + t->burning + t->held + t->radiated + t->carried + t->melted +
+                 t->gone + t->mechanical + t->content + t->burnt + t->owed;
+    for (int k = 0; k <= PLUMB_LIQUID_MAX_PHASES; ++k) {
+        sound &= state->owed[k] >= 0 && state->owed[k] <= (double)PL_MASS_MOST;
+        sum += state->owed[k];
+    }
+    return sound && sum - sum == 0;
+}
+
 static bool check_excluded(const plumb_world *w)
 {
     const uint64_t *keys = w->excluded.data;
@@ -381,7 +417,7 @@ bool pl_check_extras(pl_suspect *s)
     }
     return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
            check_air(w) && check_softbodies(s) && check_laws(s) && check_waves(s) &&
-           check_excluded(w) && check_breaks(w) &&
+           check_excluded(w) && check_breaks(w) && check_heats(s) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

@@ -49,6 +49,7 @@ COMPLETE(PL_STATE_SOFTBODIES, softbodies);
 COMPLETE(PL_STATE_LAWS, laws);
 COMPLETE(PL_STATE_WAVES, waves);
 COMPLETE(PL_STATE_FRACTURE, fracture);
+COMPLETE(PL_STATE_HEATS, heats);
 COMPLETE(PL_STATE_DIAL, dial);
 _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
                "a member of plumb_world is not in snapshot/list.h: add its row");

@@ -187,6 +187,12 @@
     LEFT(fracture.break_count) LEFT(fracture.piece_count) LEFT(fracture.before)                    \
     ARRAY(pl_pending_break, fracture.pending, fracture.pending_count, sizeof(pl_pending_break), 0)
 
+#define PL_STATE_HEATS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_heat, heats.items, heats.count, sizeof(pl_heat), 8)                                   \
+    ARRAY(pl_heat_state, heats.state, heats.state_count, sizeof(pl_heat_state), 0)                 \
+    LEFT(heats.bodies) LEFT(heats.links) LEFT(heats.keys) LEFT(heats.link_count) LEFT(heats.room)  \
+    LEFT(heats.gone) LEFT(heats.gone_count)
+
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
     LEFT(continuous.noting) LEFT(continuous.stopped_count)
@@ -236,7 +242,7 @@
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
     PL_STATE_AIR(__VA_ARGS__)                                                                      \
-    PL_STATE_FRACTURE(__VA_ARGS__)                                                                 \
+    PL_STATE_FRACTURE(__VA_ARGS__) PL_STATE_HEATS(__VA_ARGS__)                                     \
     PL_STATE_SOFTBODIES(__VA_ARGS__) PL_STATE_LAWS(__VA_ARGS__) PL_STATE_WAVES(__VA_ARGS__)                                                                     \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
     PL_STATE_DIAL(__VA_ARGS__)

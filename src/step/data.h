@@ -25,6 +25,7 @@
     X(ISLANDS, "islands", "what sleeps, and how long bodies have rested")                          \
     X(LIQUID, "liquid", "its particles")                                                           \
     X(AIR, "air", "its velocities, smoke and heat")                                                \
+    X(HEAT, "heat", "of bodies: temperatures, melt, growth")                                       \
     X(SOFT_BODIES, "soft bodies", "their nodes and elements")                                      \
     X(WAVES, "waves", "of surfaces of water")                                                      \
     X(CHARACTERS, "characters", "bodies that walk")                                                \

@@ -7,6 +7,7 @@
 #include "effects/effects.h"
 #include "effects/engine.h"
 #include "effects/fluid.h"
+#include "effects/heat.h"
 #include "effects/laws.h"
 #include "effects/waves.h"
 #include "step/quarantine.h"
@@ -144,6 +145,8 @@ RUN(pl_run_continuous, pl_continuous_run(world, dt))
 RUN(pl_run_tracks, pl_tracks_open(world, dt))
 RUN(pl_run_arrive, pl_targets_arrive(world, dt); pl_tracks_arrive(world, dt))
 RUN(pl_run_burning, pl_engines_burn(world))
+TRY(pl_run_heat, pl_heat_reserve_flow(world))
+RUN(pl_run_heat_flow, pl_heat_flow(world, (double)dt))
 RUN(pl_run_edges, pl_wrap_bodies(world))
 RUN(pl_run_reactions, pl_joints_finish(world, dt))
 RUN(pl_run_events, publish(world, dt))

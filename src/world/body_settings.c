@@ -5,6 +5,7 @@
 // list, the body's column and flag. Cost: O(1).
 #include "world/body_settings.h"
 
+#include "world/heat_list.h"
 #include "world/state.h"
 
 static pl_body_settings *items(const plumb_world *world)
@@ -146,5 +147,6 @@ void pl_body_forget(plumb_world *world, uint32_t row)
 {
     take_away(world, row);
     pl_target_forget(world, row);
+    pl_heat_forget(world, world->bodies.entity[row]);
     world->locked_bodies -= (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
 }

@@ -19,6 +19,7 @@
 #include "world/tables/event.h"
 #include "world/tables/exact.h"
 #include "world/tables/fracture.h"
+#include "world/tables/heat.h"
 #include "world/tables/internal_edges.h"
 #include "world/tables/joint.h"
 #include "world/tables/law.h"
@@ -132,6 +133,7 @@ struct plumb_world {
     pl_laws laws;
     pl_waves waves;
     pl_fracture fracture;
+    pl_heats heats;
     pl_schedule schedule;
     pl_quarantine quarantine;
     pl_measure measure;

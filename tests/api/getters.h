@@ -36,6 +36,20 @@
     X(plumb_body_thrust_x, plumb_body_thrust_x(w, h)) \
     X(plumb_body_thrust_y, plumb_body_thrust_y(w, h)) \
     X(plumb_body_thrust_angle, plumb_body_thrust_angle(w, h)) \
+    X(plumb_body_temperature, plumb_body_temperature(w, h)) \
+    X(plumb_body_heat_capacity, plumb_body_heat_capacity(w, h)) \
+    X(plumb_body_conductance, plumb_body_conductance(w, h)) \
+    X(plumb_body_emissivity, plumb_body_emissivity(w, h)) \
+    X(plumb_body_ambient, plumb_body_ambient(w, h)) \
+    X(plumb_body_heating, plumb_body_heating(w, h)) \
+    X(plumb_body_melting_point, plumb_body_melting_point(w, h)) \
+    X(plumb_body_latent_heat, plumb_body_latent_heat(w, h)) \
+    X(plumb_body_melt_phase, plumb_body_melt_phase(w, h)) \
+    X(plumb_body_ignition, plumb_body_ignition(w, h)) \
+    X(plumb_body_burn_rate, plumb_body_burn_rate(w, h)) \
+    X(plumb_body_burn_heat, plumb_body_burn_heat(w, h)) \
+    X(plumb_body_growth, plumb_body_growth(w, h)) \
+    X(plumb_body_smallest, plumb_body_smallest(w, h)) \
     X(plumb_body_time_scale, plumb_body_time_scale(w, h))                                           \
     X(plumb_body_gravity_scale, plumb_body_gravity_scale(w, h))                                     \
     X(plumb_body_user_data, plumb_body_user_data(w, h))                                             \

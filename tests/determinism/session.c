@@ -390,7 +390,7 @@ static plumb_shape shape_on(session *s, plumb_body body)
 static void change_motion(session *s, plumb_body b)
 {
     plumb_world *w = s->world;
-    switch (pick(s, 10)) {
+    switch (pick(s, 11)) {
     case 0:
         plumb_body_apply_impulse_center(w, b, place(s, -2, 2, 0, 3));
         break;
@@ -419,6 +419,17 @@ static void change_motion(session *s, plumb_body b)
         plumb_body_set_fuel(w, b, R(0.2));
         plumb_body_set_thrust_x(w, b, R(0.1));
         plumb_body_set_thrust_angle(w, b, number(s, -3, 3));
+        break;
+    case 10:
+        plumb_body_set_temperature(w, b, one_in(s, 3) ? 0 : number(s, 200, 900));
+        plumb_body_set_conductance(w, b, one_in(s, 2) ? 500 : 0);
+        plumb_body_set_emissivity(w, b, R(0.5));
+        plumb_body_set_melting_point(w, b, one_in(s, 2) ? 400 : 0);
+        plumb_body_set_latent_heat(w, b, 2000);
+        plumb_body_set_ignition(w, b, one_in(s, 3) ? 600 : 0);
+        plumb_body_set_burn_rate(w, b, R(0.02));
+        plumb_body_set_growth(w, b, one_in(s, 4) ? number(s, -0.5, 0.2) : 0);
+        plumb_body_set_smallest(w, b, R(0.1));
         break;
     case 6:
         plumb_body_set_speed_cap(w, b, one_in(s, 2) ? 2 : 0, 0);

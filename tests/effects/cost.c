@@ -120,6 +120,7 @@ static plumb_world *make(void)
         d.drag = is("drag") && i == 0 ? R(0.1) : 0;
         d.thrust = is("engines") && i == 0 ? R(0.1) : 0;
         d.break_force = is("fracture") && i == 0 ? R(1e6) : 0;
+        d.temperature = is("heat") && i == 0 ? 300 : 0;
         d.max_speed = is("speed_caps") && i == 0 ? 50 : 0;
         d.time_scale = is("time_scales") && i == 0 ? R(0.5) : 0;
         plumb_body body = body_at(world, d, i % 6 * 1.05, 0.31 + i / 6 * 0.62);

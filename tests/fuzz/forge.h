@@ -125,6 +125,11 @@ static inline void fill(plumb_world *w, int which)
         d = add(w, PLUMB_KINEMATIC, -4, 1, &ball);
         plumb_body_set_target_moving(w, d, (plumb_vec2){ -3, 2 }, 1, (plumb_vec2){ 1, 0 }, 2, 1);
         plumb_body_set_damping(w, a, R(0.1), 0);
+        plumb_body_set_temperature(w, a, 400), plumb_body_set_conductance(w, a, 1);
+        plumb_body_set_ignition(w, a, 300), plumb_body_set_burn_rate(w, a, R(0.001));
+        plumb_body_set_temperature(w, b, 273), plumb_body_set_conductance(w, b, 1);
+        plumb_body_set_melting_point(w, b, 273), plumb_body_set_latent_heat(w, b, 1000);
+        plumb_body_set_heating(w, b, 100), plumb_body_set_growth(w, b, R(-0.01));
         plumb_world_exclude_pair(w, a, b, true);
         plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1), .viscosity = 1 });
         plumb_liquid_set_phases(w, &(plumb_liquid_phase){ .density = 800 }, 1);

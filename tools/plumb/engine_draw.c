@@ -203,6 +203,56 @@ static bool add_shapes(const engine_stage *stage, int count, shape_role role, pl
     return added > 0;
 }
 
+/// What glows at a temperature [K]: the eye's sequence of colours of a black body, red first seen at about 800 K.
+static const struct glow {
+    double temperature;
+    double r, g, b;
+} glows[] = {
+    { 600, 0.30, 0.05, 0.04 },  { 800, 0.55, 0.07, 0.03 },  { 1000, 0.85, 0.18, 0.04 },
+    { 1300, 1.00, 0.45, 0.08 }, { 1700, 1.00, 0.72, 0.28 }, { 2300, 1.00, 0.90, 0.62 },
+    { 3500, 1.00, 0.98, 0.92 },
+};
+
+#define GLOW_FROM 600.0  ///< [K] where it begins to hide what colour a body has
+#define GLOW_ALL  1000.0 ///< [K] where nothing is left of that
+
+static unsigned char toned(unsigned char own, double glow, double share)
+{
+    const double value = (1 - share) * own + share * 255 * glow;
+    return (unsigned char)(value + 0.5);
+}
+
+/// The colour of a body as hot as that.
+static render_rgba glowing(render_rgba own, double temperature)
+{
+    const size_t last = sizeof glows / sizeof *glows - 1;
+    size_t i = 0;
+    while (i + 1 < last && glows[i + 1].temperature < temperature) {
+        i++;
+    }
+    const struct glow *a = &glows[i], *b = &glows[i + 1];
+    double t = (temperature - a->temperature) / (b->temperature - a->temperature);
+    double share = (temperature - GLOW_FROM) / (GLOW_ALL - GLOW_FROM);
+    t = t < 1 ? t : 1;
+    share = share < 1 ? share : 1;
+    return (render_rgba){ toned(own.r, a->r + t * (b->r - a->r), share),
+                          toned(own.g, a->g + t * (b->g - a->g), share),
+                          toned(own.b, a->b + t * (b->b - a->b), share), own.a };
+}
+
+static void glow_by(const plumb_world *world, const scene_body *body, render_style *style)
+{
+    const double temperature = (double)plumb_body_temperature(world, body->entity);
+    const render_rgba grey = { 120, 124, 130, 255 }; // about what static bodies have
+    if (temperature > GLOW_FROM) {
+        const bool is_static = plumb_body_get_type(world, body->entity) == PLUMB_STATIC;
+        const render_rgba own = style->color.a > 0 ? style->color
+                                : is_static        ? grey
+                                                   : render_palette(style->palette);
+        style->color = glowing(own, temperature);
+    }
+}
+
 static bool add_body(engine_stage *stage, const scene_body *body, int index, bool names,
                      unsigned show, render_frame *frame)
 {
@@ -223,6 +273,7 @@ static bool add_body(engine_stage *stage, const scene_body *body, int index, boo
                            .color = { body->color.r, body->color.g, body->color.b, body->color.a },
                            .label = label };
     bool is_static = type == PLUMB_STATIC;
+    glow_by(world, body, &style);
     if (add_shapes(stage, count, ROLE_SOLID, where, is_static, &style, frame)) {
         style.label = NULL;
     }

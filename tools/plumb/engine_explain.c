@@ -25,6 +25,7 @@ typedef enum cause {
     DAMPED,
     DRAGGED,
     THRUSTING,
+    HEATED, ///< with a temperature, or that grow
     CAPPED,
     ELASTIC, ///< of a material with restitution
     FAST,    ///< that ask for sweeps
@@ -83,6 +84,8 @@ static const struct reason {
     { "immersion", FLUIDS, IMMERSED },
     { "engines", THRUSTING, SAME },
     { "burning", THRUSTING, SAME },
+    { "heat", HEATED, SAME },
+    { "heat flow", HEATED, SAME },
     { "acting", NOBODY, BODIES },
     { "measure bodies", NOBODY, BODIES },
     { "clusters", NOBODY, BODIES },
@@ -201,6 +204,8 @@ static bool is_one(engine_stage *stage, plumb_body b, cause who)
         return plumb_body_drag(w, b) > 0;
     case THRUSTING:
         return plumb_body_thrust(w, b) > 0;
+    case HEATED:
+        return plumb_body_temperature(w, b) > 0 || plumb_body_growth(w, b) != 0;
     case CAPPED:
         return plumb_body_max_speed(w, b) > 0 || plumb_body_max_spin(w, b) > 0;
     case ELASTIC:

@@ -502,6 +502,9 @@ static void look_at_still(lint_job *job, plumb_body body)
         : plumb_body_max_speed(w, body) > 0 || plumb_body_max_spin(w, body) > 0    ? "a speed cap"
         : plumb_body_drag(w, body) > 0                                             ? "drag"
         : plumb_body_thrust(w, body) > 0                                           ? "thrust"
+        : plumb_body_heating(w, body) != 0                                         ? "heating"
+        : plumb_body_melting_point(w, body) > 0  ? "a melting point"
+        : plumb_body_ignition(w, body) > 0       ? "an ignition temperature"
         : plumb_body_gravity_scale(w, body) != 1 ? "a gravity scale"
                                                  : NULL;
     if (what != NULL) {

@@ -37,17 +37,31 @@ static int method_teleport(lua_State *L)
 // What takes one number or one flag: body:set_mass(2). The world has it, or refuses; the record keeps it as given,
 // and whoever writes the scene out writes it.
 #define NUMBERS(X)                                                                                 \
+    X(ambient)                                                                                     \
     X(attraction)                                                                                  \
     X(break_cells)                                                                                 \
     X(break_energy)                                                                                \
     X(break_force)                                                                                 \
     X(break_impulse)                                                                               \
+    X(burn_heat)                                                                                   \
+    X(burn_rate)                                                                                   \
     X(charge)                                                                                      \
+    X(conductance)                                                                                 \
     X(drag)                                                                                        \
+    X(emissivity)                                                                                  \
     X(exhaust)                                                                                     \
     X(fuel)                                                                                        \
     X(gravity_scale)                                                                               \
+    X(growth)                                                                                      \
+    X(heat_capacity)                                                                               \
+    X(heating)                                                                                     \
+    X(ignition)                                                                                    \
+    X(latent_heat)                                                                                 \
     X(mass)                                                                                        \
+    X(melt_phase)                                                                                  \
+    X(melting_point)                                                                               \
+    X(smallest)                                                                                    \
+    X(temperature)                                                                                 \
     X(thrust)                                                                                      \
     X(thrust_angle)                                                                                \
     X(thrust_x)                                                                                    \

@@ -76,6 +76,12 @@ static int method_fuel(lua_State *L)
     return sc_push_real(L, plumb_body_fuel(c.world, c.entity));
 }
 
+static int method_temperature(lua_State *L)
+{
+    sc_body_call c = sc_body_self(L, "temperature");
+    return sc_push_real(L, plumb_body_temperature(c.world, c.entity));
+}
+
 static int method_mass(lua_State *L)
 {
     sc_body_call c = sc_body_self(L, "mass");
@@ -125,13 +131,21 @@ static int method_destroy(lua_State *L)
 // --------------------------------------------------------------------------------- metamethods
 
 static const luaL_Reg methods[] = {
-    { "alive", method_alive },       { "angle", method_angle },
-    { "center", method_center },     { "destroy", method_destroy },
-    { "fuel", method_fuel },         { "inertia", method_inertia },
-    { "mass", method_mass },         { "name", method_name },
-    { "position", method_position }, { "speed", method_speed },
-    { "spin", method_spin },         { "type", method_type },
-    { "velocity", method_velocity }, { NULL, NULL },
+    { "alive", method_alive },
+    { "angle", method_angle },
+    { "center", method_center },
+    { "destroy", method_destroy },
+    { "fuel", method_fuel },
+    { "inertia", method_inertia },
+    { "mass", method_mass },
+    { "name", method_name },
+    { "position", method_position },
+    { "speed", method_speed },
+    { "spin", method_spin },
+    { "temperature", method_temperature },
+    { "type", method_type },
+    { "velocity", method_velocity },
+    { NULL, NULL },
 };
 
 // All methods, in four tables.

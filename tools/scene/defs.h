@@ -89,7 +89,7 @@ typedef struct sc_query_def {
 } sc_query_def;
 
 typedef struct sc_body_def {
-    uint64_t present;
+    uint64_t present[2];
     PL_BODY_ROWS(SC_MEMBER, )
     double angle_deg, density;
     double one_way[2], one_way_angle;
@@ -117,6 +117,9 @@ typedef struct sc_body {
     uint64_t listed;   ///< scene.list_number of the last list of bodies that it was put into
     sc_shape_def *shapes;
     bool is_part; ///< of a body that was cut or broke: "pane.3"
+    bool is_seen; ///< a body that melts, burns or grows: its first shape, as the record has it
+    plumb_real seen_mass;
+    plumb_vec2 seen_corner;
 } sc_body;
 
 /// What a joint holds on to: a body, or the world.
@@ -179,7 +182,7 @@ typedef struct sc_expect_def {
     bool always;
     char body[SC_NAME_SIZE];
     double position[2], tolerance;
-    double x[2], y[2], vx[2], vy[2], angle[2], spin[2], speed[2];
+    double x[2], y[2], vx[2], vy[2], angle[2], spin[2], speed[2], temperature[2];
     double max_speed, min_speed, max_spin, max_penetration, energy_drift, momentum_drift;
     double count[2], value[2];
     char joint[SC_NAME_SIZE];
@@ -353,6 +356,13 @@ typedef struct sc_shattered {
     int parts; ///< registry reference of the list of their objects
 } sc_shattered;
 
+/// A body that melted, burnt or shrank away in the last step.
+typedef struct sc_gone {
+    plumb_body_gone event;
+    char name[SC_NAME_SIZE];
+    int object; ///< registry reference of its Lua object
+} sc_gone;
+
 typedef enum sc_handler_kind {
     SC_AT,
     SC_EVERY,
@@ -365,6 +375,7 @@ typedef enum sc_handler_kind {
     SC_ON_BREAK,
     SC_ON_STRAIN,
     SC_ON_SHATTER,
+    SC_ON_GONE,
     SC_EDIT_CONTACT,
     SC_FIELD ///< `a` is the body
 } sc_handler_kind;

@@ -23,6 +23,7 @@ static const struct {
     { "on_break", SC_ON_BREAK, &sc_list_break },
     { "on_strain", SC_ON_STRAIN, &sc_list_break },
     { "on_shatter", SC_ON_SHATTER, &sc_list_contact },
+    { "on_gone", SC_ON_GONE, &sc_list_contact },
     { "edit_contact", SC_EDIT_CONTACT, &sc_list_contact },
 };
 enum { KINDS = (int)(sizeof kinds / sizeof kinds[0]) };
@@ -362,6 +363,7 @@ static void dispatch_visit(scene *s, sc_handler_kind kind, plumb_sensor_event e)
 void sc_events_after(scene *s)
 {
     sc_shatters_take(s);
+    sc_gone_take(s);
     after_contacts(s); // all arrays first: a handler that changes the world ends them
     after_sensors(s);
     after_breaks(s);
@@ -369,6 +371,7 @@ void sc_events_after(scene *s)
     sc_departed_turn(s);
     const int unheard = s->unheard.count; // of the step before
     sc_shatters_tell(s);
+    sc_gone_tell(s);
     tell_begins(s);
     for (int i = 0; i < s->ends.count; i++) {
         const plumb_contact_end e = s->ends.items[i];

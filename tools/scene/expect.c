@@ -51,7 +51,7 @@ static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
         sc_raise(s, SCENE_E_RANGE, site, "till", 0, NULL, "'till' of expect{} is before 'from'");
     }
     bool body_only = HAS(d, position) || HAS(d, x) || HAS(d, y) || HAS(d, vx) || HAS(d, vy) ||
-                     HAS(d, angle) || HAS(d, spin) || HAS(d, speed);
+                     HAS(d, angle) || HAS(d, spin) || HAS(d, speed) || HAS(d, temperature);
     if (body_only && d->body[0] == 0) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
                  "expect{} needs 'body' to know whose position, angle or velocity is meant");

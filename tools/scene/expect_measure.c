@@ -106,6 +106,8 @@ static void measure_body(scene *s, sc_expect *e, const sc_body *b)
         { HAS(d, angle), "angle", "rad", (double)plumb_body_angle(s->world, b->entity), d->angle },
         { HAS(d, spin), "spin", "rad/s", spin, d->spin },
         { HAS(d, speed), "speed", "m/s", speed, d->speed },
+        { HAS(d, temperature), "temperature", "K",
+          (double)plumb_body_temperature(s->world, b->entity), d->temperature },
     };
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
         if (ranges[i].given) {

@@ -540,13 +540,14 @@ void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void
     sc_need_stack(s, 10);
     table = lua_absindex(L, table);
     check_keys(s, site, list, table);
-    uint64_t present = 0;
+    bool given[SC_ROWS_MOST] = { false };
+    memset(out, 0, (list->count > 64 ? 2 : 1) * sizeof(uint64_t));
     for (int i = 0; i < list->count; i++) {
         sc_context c = { s, site, &list->rows[i], 0 };
         push_value(s, site, c.row, table, &c.index);
         if (!lua_isnil(L, -1)) {
             read_value(&c, lua_gettop(L), out);
-            present |= (uint64_t)1 << i;
+            given[i] = true;
         } else if ((c.row->flags & SC_REQUIRED) != 0) {
             bool plain = c.row->kind == SC_POINTS || c.row->kind == SC_FUNCTION;
             sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "%s{} needs %s%s%s", site->construct,
@@ -557,5 +558,7 @@ void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void
         }
         lua_pop(L, 1);
     }
-    memcpy(out, &present, sizeof present);
+    for (int i = 0; i < list->count; i++) {
+        sc_row_mark(list, out, i, given[i]);
+    }
 }

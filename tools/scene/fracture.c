@@ -130,6 +130,12 @@ static void reread(const scene *s, sc_body *b)
 #undef REREAD
 }
 
+void sc_body_refit(scene *s, sc_body *b)
+{
+    refit(s, b);
+    reread(s, b);
+}
+
 static void rejoin(scene *s, plumb_body body)
 {
     plumb_joint joints[64];

@@ -154,10 +154,10 @@ typedef struct sc_field {
     unsigned flags;
 } sc_field;
 
-#define SC_ROWS_MOST 64 ///< keys of a constructor: bits of `present`
+#define SC_ROWS_MOST 128 ///< keys of a constructor: bits of `present`
 
 /// All keys of a constructor. Every struct filled by a list begins with
-/// `uint64_t present`: bit i says that rows[i] was given.
+/// `uint64_t present`: bit i says that rows[i] was given. Of lists of more than 64 rows with two of them.
 typedef struct sc_list {
     const char *name;
     const sc_field *rows;
@@ -183,6 +183,9 @@ uint64_t sc_read_names(const sc_context *c, int value);
 
 /// Reads the table at `table` into *out; raises on anything that the list does not allow.
 void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void *out);
+/// Whether rows[row] was given; marks it as given or not.
+bool sc_row_given(const sc_list *list, const void *def, int row);
+void sc_row_mark(const sc_list *list, void *def, int row, bool given);
 /// Whether a field was given: offset of the struct's member.
 bool sc_given(const sc_list *list, const void *def, size_t offset);
 #define SC_GIVEN(list, def, type, member) sc_given((list), (def), offsetof(type, member))
@@ -285,6 +288,7 @@ struct scene {
     SC_ARRAY(plumb_sensor_event) enters;
     SC_ARRAY(plumb_sensor_event) leaves;
     SC_ARRAY(sc_shattered) shatters;
+    SC_ARRAY(sc_gone) gone;
     SC_ARRAY(plumb_joint_break) breaks;
     SC_ARRAY(plumb_joint_strain) strains;
     SC_ARRAY(sc_name) strained; ///< name of the joint of each strain
@@ -398,6 +402,7 @@ void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in, liquid_drain, liq
 void sc_open_softbody(lua_State *L);   ///< rope, cloth, jelly, balloon, softbody
 void sc_open_air(lua_State *L);        ///< air, air_source, air_fill, air_at, air_sum
 void sc_open_waves(lua_State *L);      ///< waves, wave_at
+void sc_open_heat(lua_State *L);       ///< heat
 void sc_open_characters(lua_State *L); ///< character
 void sc_open_queries(lua_State *L);    ///< ray, cast, nearest, inside
 void sc_open_joints(lua_State *L);     ///< revolute, wheel, ..., exclude, world
@@ -568,6 +573,13 @@ extern const luaL_Reg sc_fracture_methods[]; ///< fracture.c
 /// Bodies that broke in the step: their parts become bodies of the scene; handlers hear of it.
 void sc_shatters_take(scene *s);
 void sc_shatters_tell(scene *s);
+/// The record of a body whose shapes are others now (fracture.c).
+void sc_body_refit(scene *s, sc_body *body);
+/// Whether it melts, burns or grows, and so may be another without a call.
+bool sc_body_changes(const sc_body *body);
+/// Those that changed in the step, and those that are gone: records follow; handlers hear of it.
+void sc_gone_take(scene *s);
+void sc_gone_tell(scene *s);
 /// A fresh record with its name (one is made up where it has none) in the scene's lists.
 sc_body *sc_body_add(scene *s, const sc_body_def *def);
 

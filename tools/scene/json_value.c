@@ -403,8 +403,6 @@ void sc_json_object(sc_json_writer *w, const sc_list *list, const void *def, con
                     const sc_json_origin *from)
 {
     const sc_field *sorted[SC_ROWS_MOST];
-    uint64_t present;
-    memcpy(&present, def, sizeof present);
     sort_rows(list, sorted);
     fputc('{', w->file);
     w->first = true;
@@ -415,7 +413,7 @@ void sc_json_object(sc_json_writer *w, const sc_list *list, const void *def, con
             sc_json_string(w, kind);
             kind = NULL;
         }
-        if ((present >> (row - list->rows) & 1) != 0 && has_json_form(row)) {
+        if (sc_row_given(list, def, (int)(row - list->rows)) && has_json_form(row)) {
             write_key(w, row->name);
             write_value(w, row, def, from);
         }

@@ -23,14 +23,17 @@ static void write_body(const scene *s, sc_json_writer *w, const sc_body *b)
     d.velocity[0] = (double)v.x;
     d.velocity[1] = (double)v.y;
     d.spin = (double)plumb_body_angular_velocity(s->world, b->entity);
-    uint64_t hidden = 0;
+    if (SC_GIVEN(list, &d, sc_body_def, temperature)) {
+        d.temperature = (double)plumb_body_temperature(s->world, b->entity);
+    }
     for (int i = 0; i < list->count; i++) {
         const char *row = list->rows[i].name;
         // A body that is dynamic no more keeps what it was told, but cannot say it.
         bool cannot = d.type != 0 && sc_motion_is_dynamic(row);
-        hidden |= cannot || strcmp(row, "angle_deg") == 0 ? (uint64_t)1 << i : 0;
+        if (cannot || strcmp(row, "angle_deg") == 0) {
+            sc_row_mark(list, &d, i, false);
+        }
     }
-    d.present &= ~hidden;
     SC_GIVE(list, &d, sc_body_def, at);
     SC_GIVE(list, &d, sc_body_def, angle);
     SC_GIVE(list, &d, sc_body_def, name);

@@ -178,6 +178,7 @@ static const sc_field expect_rows[] = {
     { "score",           SC_STRING,   AT(T, score),           0, 0, NULL, 0, 0 },
     { "speed",           SC_RANGE,    AT(T, speed),           0, BIG, "m/s", 0, 0 },
     { "spin",            SC_RANGE,    AT(T, spin),            -BIG, BIG, "rad/s", 0, 0 },
+    { "temperature",     SC_RANGE,    AT(T, temperature),     0, BIG, "K", 0, 0 },
     { "test",            SC_FUNCTION, AT(T, test),            0, 0, NULL, 0, 0 },
     { "till",            SC_NUMBER,   AT(T, till),            0, 1e7, "s", 0, 0 },
     { "tolerance",       SC_NUMBER,   AT(T, tolerance),       0, BIG, "1", 0, 0 },

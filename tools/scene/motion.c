@@ -14,28 +14,16 @@ int sc_axis_bit(const char *name)
     return 0;
 }
 
-static const char *const dynamic_rows[] = { "angular_damping",
-                                            "attraction",
-                                            "break_cells",
-                                            "break_energy",
-                                            "break_force",
-                                            "break_impulse",
-                                            "charge",
-                                            "damping",
-                                            "drag",
-                                            "exhaust",
-                                            "fixed_rotation",
-                                            "fuel",
-                                            "gravity_scale",
-                                            "inertia",
-                                            "lock",
-                                            "mass",
-                                            "max_speed",
-                                            "max_spin",
-                                            "thrust",
-                                            "thrust_angle",
-                                            "thrust_x",
-                                            "thrust_y" };
+static const char *const dynamic_rows[] = {
+    "ambient",       "angular_damping", "attraction",     "break_cells",
+    "break_energy",  "break_force",     "break_impulse",  "burn_heat",
+    "burn_rate",     "charge",          "damping",        "drag",
+    "emissivity",    "exhaust",         "fixed_rotation", "fuel",
+    "gravity_scale", "heat_capacity",   "heating",        "ignition",
+    "inertia",       "latent_heat",     "lock",           "mass",
+    "max_speed",     "max_spin",        "melt_phase",     "melting_point",
+    "thrust",        "thrust_angle",    "thrust_x",       "thrust_y"
+};
 
 bool sc_motion_is_dynamic(const char *row)
 {
@@ -54,7 +42,7 @@ void sc_motion_check(scene *s, const sc_site *site, const sc_body_def *d)
         const char *row = sc_list_body.rows[i].name;
         bool mine = (sc_motion_is_dynamic(row) && strcmp(row, "fixed_rotation") != 0) ||
                     (d->type == 2 && strcmp(row, "time_scale") == 0);
-        if (mine && (d->present >> i & 1) != 0) {
+        if (mine && sc_row_given(&sc_list_body, d, i)) {
             sc_raise(s, SCENE_E_CONFLICT, site, row, 0, NULL, "a %s body{} cannot have '%s'",
                      kinds[d->type], row);
         }

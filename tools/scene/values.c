@@ -36,13 +36,28 @@ const char *sc_type_name(scene *s, int index)
     }
 }
 
+bool sc_row_given(const sc_list *list, const void *def, int row)
+{
+    uint64_t present[SC_ROWS_MOST / 64] = { 0 };
+    memcpy(present, def, list->count > 64 ? 2 * sizeof *present : sizeof *present);
+    return (present[row / 64] >> row % 64 & 1) != 0;
+}
+
+void sc_row_mark(const sc_list *list, void *def, int row, bool given)
+{
+    uint64_t present[SC_ROWS_MOST / 64] = { 0 };
+    const size_t bytes = list->count > 64 ? 2 * sizeof *present : sizeof *present;
+    const uint64_t bit = (uint64_t)1 << row % 64;
+    memcpy(present, def, bytes);
+    present[row / 64] = given ? present[row / 64] | bit : present[row / 64] & ~bit;
+    memcpy(def, present, bytes);
+}
+
 bool sc_given(const sc_list *list, const void *def, size_t offset)
 {
-    uint64_t present;
-    memcpy(&present, def, sizeof present);
     for (int i = 0; i < list->count; i++) {
         if (list->rows[i].offset == offset) {
-            return (present >> i) & 1;
+            return sc_row_given(list, def, i);
         }
     }
     return false;
@@ -50,15 +65,11 @@ bool sc_given(const sc_list *list, const void *def, size_t offset)
 
 void sc_mark(const sc_list *list, void *def, size_t offset, bool given)
 {
-    uint64_t present;
-    memcpy(&present, def, sizeof present);
     for (int i = 0; i < list->count; i++) {
         if (list->rows[i].offset == offset) {
-            uint64_t bit = (uint64_t)1 << i;
-            present = given ? present | bit : present & ~bit;
+            sc_row_mark(list, def, i, given);
         }
     }
-    memcpy(def, &present, sizeof present);
 }
 
 void sc_give(const sc_list *list, void *def, size_t offset)

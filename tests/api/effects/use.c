@@ -102,6 +102,8 @@ static void refusals(void)
     refused(w, "fracture", plumb_body_shatter(w, body, NULL, NULL, 0) >= 0);
     refused(w, "fracture", plumb_body_merge(w, body, lift, NULL) == PLUMB_OK);
     refused(w, "fracture", plumb_body_scale(w, body, 2) == PLUMB_OK);
+    refused(w, "heat", MADE(plumb_body_create, (plumb_body_desc){ .temperature = 300 }));
+    refused(w, "heat", plumb_body_set_growth(w, body, 1) == PLUMB_OK);
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
     refused(w, "air", plumb_air_create(w, &(plumb_air_desc){ .half = { 1, 1 } }) == PLUMB_OK);
     refused(w, "softbodies", MADE(plumb_rope_create, (plumb_rope_desc){ .to = { 1, 0 } }));
