@@ -43,7 +43,7 @@ const plumb_body_gone *plumb_world_body_gone_events(const plumb_world *world, in
     if (count != NULL) {
         *count = (int)all;
     }
-    return all == 0 ? NULL : world->heats.gone.data;
+    return all == 0 ? NULL : pl_heat_step_of(&world->heats)->gone.data;
 }
 
 plumb_result plumb_world_heat(const plumb_world *world, plumb_heat_sums *sums)

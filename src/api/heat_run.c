@@ -90,26 +90,25 @@ static bool count_drops(change *c, double melt)
 
 //---- particles -----------------------------------------------------------------------------------
 
-// Whether another solid shape is there.
-static bool is_taken(const change *c, plumb_vec2 at)
+// The first of some places where no other solid shape is, or the first of all. E_MEMORY.
+static plumb_result find_place(const change *c, uint32_t row, double length, plumb_vec2 *place)
 {
     const plumb_query_filter filter = { .ignore_body = c->body };
-    return plumb_world_overlap_point(c->world, at, &filter, NULL, 0) > 0;
-}
-
-static plumb_vec2 next_place(const change *c, uint32_t row, double length, pl_heat_state *state)
-{
-    plumb_vec2 first = plumb_v2(0, 0);
+    uint64_t *drops = &pl_heat_state_of(&c->world->heats)->drops;
     for (int i = 0; i < TRIES; ++i) {
-        const double turns = GOLDEN * (double)(state->drops++ & 0xffffff);
+        const double turns = GOLDEN * (double)((*drops)++ & 0xffffff);
         const plumb_vec2 at =
             pl_perimeter_place(c->world, row, length * (turns - (double)(int64_t)turns));
-        if (!is_taken(c, at)) {
-            return at;
+        const int found = plumb_world_overlap_point(c->world, at, &filter, NULL, 0);
+        if (found < 0 && plumb_world_error(c->world).code == PLUMB_E_MEMORY) {
+            return PLUMB_E_MEMORY;
         }
-        first = i == 0 ? at : first;
+        *place = i == 0 || found <= 0 ? at : *place;
+        if (found <= 0) {
+            break;
+        }
     }
-    return first;
+    return PLUMB_OK;
 }
 
 // What particles take away, about the centre of the body.
@@ -117,40 +116,44 @@ typedef struct taken {
     double x, y, turn; // [kg m/s], [kg m^2/s]
 } taken;
 
-// Makes the particles of a body. E_MEMORY: none.
+static plumb_result drip_one(const change *c, double length, taken *t)
+{
+    const uint32_t row = pl_body_row(c->world, c->body);
+    const pl_bodies *b = &c->world->bodies;
+    plumb_particle p = { .phase = c->phase };
+    PL_TRY(find_place(c, row, length, &p.position));
+    const double rx = (double)p.position.x - (double)b->center_x[row];
+    const double ry = (double)p.position.y - (double)b->center_y[row], w = (double)b->w[row];
+    p.velocity = plumb_v2((real)((double)b->vx[row] - w * ry), (real)((double)b->vy[row] + w * rx));
+    PL_TRY(plumb_liquid_add(c->world, &p, 1));
+    const double px = c->drop * (double)p.velocity.x, py = c->drop * (double)p.velocity.y;
+    t->x += px;
+    t->y += py;
+    t->turn += rx * py - ry * px;
+    return PLUMB_OK;
+}
+
+// Makes the particles of a body, all or none. Where they would be too far off for a liquid, its melt has nowhere to go.
 static plumb_result drip(change *c, taken *t)
 {
     plumb_world *world = c->world;
-    const uint32_t row = pl_body_row(world, c->body);
-    const pl_bodies *b = &world->bodies;
-    pl_heat_state *state = pl_heat_state_of(&world->heats);
-    const double length = pl_perimeter(world, row);
+    const double length = c->drops > 0 ? pl_perimeter(world, pl_body_row(world, c->body)) : 0;
     const uint32_t before = world->liquid.count;
-    const uint64_t drops = state->drops;
-    for (uint32_t i = 0; i < c->drops; ++i) {
-        const plumb_vec2 at = next_place(c, row, length, state);
-        const double rx = (double)at.x - (double)b->center_x[row];
-        const double ry = (double)at.y - (double)b->center_y[row], w = (double)b->w[row];
-        plumb_particle p = { .position = at, .phase = c->phase };
-        p.velocity =
-            plumb_v2((real)((double)b->vx[row] - w * ry), (real)((double)b->vy[row] + w * rx));
-        const plumb_result r = plumb_liquid_add(world, &p, 1);
-        if (r != PLUMB_OK) {
-            world->liquid.count = before;
-            state->drops = drops;
-            *t = (taken){ 0, 0, 0 };
-            c->drops = 0;
-            if (r != PLUMB_E_MEMORY) { // too far off for a liquid
-                forget_melt(world, pl_heat_find(world, c->body));
-            }
-            return r;
-        }
-        const double px = c->drop * (double)p.velocity.x, py = c->drop * (double)p.velocity.y;
-        t->x += px;
-        t->y += py;
-        t->turn += rx * py - ry * px;
+    const uint64_t drops = pl_heat_state_of(&world->heats)->drops;
+    plumb_result r = PLUMB_OK;
+    for (uint32_t i = 0; i < c->drops && r == PLUMB_OK; ++i) {
+        r = drip_one(c, length, t);
     }
-    return PLUMB_OK;
+    if (r != PLUMB_OK) {
+        world->liquid.count = before;
+        pl_heat_state_of(&world->heats)->drops = drops;
+        *t = (taken){ 0, 0, 0 };
+        c->drops = r == PLUMB_E_MEMORY ? c->drops : 0;
+    }
+    if (r != PLUMB_OK && r != PLUMB_E_MEMORY) {
+        forget_melt(world, pl_heat_find(world, c->body));
+    }
+    return r;
 }
 
 // The body moves on with what is left. What burnt, and what grew, moves as it does.
@@ -243,7 +246,8 @@ static plumb_result finish(change *c)
 {
     plumb_world *world = c->world;
     pl_heats *heats = &world->heats;
-    if (!pl_buffer_reserve(&world->memory, &heats->gone,
+    pl_buffer *gone = &pl_heat_step_of(heats)->gone;
+    if (!pl_buffer_reserve(&world->memory, gone,
                            ((size_t)heats->gone_count + 1) * sizeof(plumb_body_gone))) {
         return pl_fail_memory(world, c->fn);
     }
@@ -274,7 +278,7 @@ static plumb_result finish(change *c)
     state->sums.carried += pl_heat_content(&heat, c->mass);
     state->sums.mechanical += kinetic_and_height(world, row);
     pl_destroy_entity(world, c->body.entity);
-    ((plumb_body_gone *)heats->gone.data)[heats->gone_count++] = event;
+    ((plumb_body_gone *)gone->data)[heats->gone_count++] = event;
     return PLUMB_OK;
 }
 
@@ -341,6 +345,9 @@ plumb_result pl_heat_run(plumb_world *world, const char *function)
 {
     pl_heats *heats = &world->heats;
     heats->gone_count = 0;
+    if (!pl_heat_reserve(world, 0)) {
+        return pl_fail_memory(world, function);
+    }
     if (world->observer != NULL && world->observer->replays) {
         return PLUMB_OK;
     }

@@ -32,6 +32,7 @@
 #include "step/system.h"
 #include "watchdog/watchdog.h"
 #include "world/check.h"
+#include "world/heat_list.h"
 #include "world/island.h"
 #include "world/observer.h"
 #include "world/rows.h"
@@ -210,12 +211,7 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->checking);
     pl_buffer_free(&memory, &world->checked);
     pl_buffer_free(&memory, &world->settings.items);
-    pl_buffer_free(&memory, &world->heats.items);
-    pl_buffer_free(&memory, &world->heats.state);
-    pl_buffer_free(&memory, &world->heats.bodies);
-    pl_buffer_free(&memory, &world->heats.links);
-    pl_buffer_free(&memory, &world->heats.keys);
-    pl_buffer_free(&memory, &world->heats.gone);
+    pl_heats_free(&memory, &world->heats);
     pl_buffer_free(&memory, &world->targets.items);
     pl_buffer_free(&memory, &world->tracks.items);
     pl_parts_free(&memory, &world->parts);

@@ -45,26 +45,26 @@ bool pl_want_heat(const plumb_world *world, const char **reason)
 
 bool pl_heat_reserve_flow(plumb_world *world)
 {
-    pl_heats *heats = &world->heats;
     const size_t contacts = (size_t)world->broad.pairs.count + world->sleep.contact_count;
-    heats->room = 0;
-    if (!pl_heat_reserve(world, 0) ||
-        !pl_buffer_reserve(&world->memory, &heats->links, contacts * sizeof(pl_heat_link)) ||
-        !pl_buffer_reserve(&world->memory, &heats->keys, contacts * sizeof(pl_keyed))) {
+    if (!pl_heat_reserve(world, 0)) {
         return false;
     }
-    heats->room = (uint32_t)contacts;
-    return true;
+    pl_heat_step *s = pl_heat_step_of(&world->heats);
+    const bool has =
+        pl_buffer_reserve(&world->memory, &s->links, contacts * sizeof(pl_heat_link)) &&
+        pl_buffer_reserve(&world->memory, &s->keys, contacts * sizeof(pl_keyed));
+    s->room = has ? (uint32_t)contacts : 0;
+    return has;
 }
 
 static pl_heat_body *bodies_of(const pl_heats *heats)
 {
-    return (pl_heat_body *)heats->bodies.data;
+    return (pl_heat_body *)pl_heat_step_of(heats)->bodies.data;
 }
 
 static pl_heat_link *links_of(const pl_heats *heats)
 {
-    return (pl_heat_link *)heats->links.data;
+    return (pl_heat_link *)pl_heat_step_of(heats)->links.data;
 }
 
 // Into how many parts a step is divided in which something decays by e^-ratio.
@@ -92,10 +92,9 @@ static void add_link(plumb_world *world, const pl_pair *pair)
         return;
     }
     const uint32_t a = conductor(world, pair->a), b = conductor(world, pair->b);
-    pl_heats *heats = &world->heats;
-    if (a != PL_NONE && b != PL_NONE && heats->link_count < heats->room) {
-        ((pl_keyed *)heats->keys.data)[heats->link_count++] =
-            (pl_keyed){ .key = pl_pair_key(a, b) };
+    pl_heat_step *s = pl_heat_step_of(&world->heats);
+    if (a != PL_NONE && b != PL_NONE && s->link_count < s->room) {
+        ((pl_keyed *)s->keys.data)[s->link_count++] = (pl_keyed){ .key = pl_pair_key(a, b) };
     }
 }
 
@@ -125,22 +124,22 @@ static void find_contacts(plumb_world *world)
 // Contacts of the same two bodies are one link.
 static void find_links(plumb_world *world)
 {
-    pl_heats *heats = &world->heats;
-    heats->link_count = 0;
+    pl_heat_step *s = pl_heat_step_of(&world->heats);
+    s->link_count = 0;
     find_contacts(world);
-    pl_keyed *keys = heats->keys.data;
-    pl_heat_link *links = links_of(heats);
-    const pl_heat *items = pl_heat_items(heats);
-    const uint32_t contacts = heats->link_count;
+    pl_keyed *keys = s->keys.data;
+    pl_heat_link *links = s->links.data;
+    const pl_heat *items = pl_heat_items(&world->heats);
+    const uint32_t contacts = s->link_count;
     pl_sort_keyed(keys, contacts);
-    heats->link_count = 0;
+    s->link_count = 0;
     for (uint32_t i = 0; i < contacts; ++i) {
         const uint64_t key = keys[i].key;
         const double a = items[key >> 32].conductance, b = items[(uint32_t)key].conductance;
-        if (heats->link_count == 0 || links[heats->link_count - 1].key != key) {
-            links[heats->link_count++] = (pl_heat_link){ .key = key };
+        if (s->link_count == 0 || links[s->link_count - 1].key != key) {
+            links[s->link_count++] = (pl_heat_link){ .key = key };
         }
-        links[heats->link_count - 1].conductance += a * b / (a + b);
+        links[s->link_count - 1].conductance += a * b / (a + b);
     }
 }
 
@@ -159,8 +158,9 @@ static void conduct(pl_heats *heats, uint32_t link, double h)
 
 static void conduct_all(pl_heats *heats, double dt)
 {
+    const uint32_t links = pl_heat_step_of(heats)->link_count;
     double most = 0;
-    for (uint32_t i = 0; i < heats->link_count; ++i) {
+    for (uint32_t i = 0; i < links; ++i) {
         const pl_heat_link *l = &links_of(heats)[i];
         const double rate = l->conductance * (bodies_of(heats)[l->key >> 32].yield +
                                               bodies_of(heats)[(uint32_t)l->key].yield);
@@ -169,10 +169,10 @@ static void conduct_all(pl_heats *heats, double dt)
     const int count = parts_of(most * dt);
     const double half = dt / (2 * count);
     for (int k = 0; k < count; ++k) {
-        for (uint32_t i = 0; i < heats->link_count; ++i) {
+        for (uint32_t i = 0; i < links; ++i) {
             conduct(heats, i, half);
         }
-        for (uint32_t i = heats->link_count; i-- > 0;) {
+        for (uint32_t i = links; i-- > 0;) {
             conduct(heats, i, half);
         }
     }
@@ -366,5 +366,5 @@ void pl_heat_flow(plumb_world *world, double dt)
     for (uint32_t i = 0; i < heats->count; ++i) {
         close_body(world, &items[i], &bodies_of(heats)[i], dt);
     }
-    heats->room = 0;
+    pl_heat_step_of(heats)->room = 0;
 }

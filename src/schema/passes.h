@@ -62,7 +62,7 @@
       "pairs", "sensors", ONE)                                                                                                               \
     X("breakable",         CONTACTS,    IF(pl_want_breaking),        ONCE(pl_run_breakable),                                 ONCE,           \
       "body settings, velocities", "events", ONE)                                                                                                        \
-    X("heat",              CONTACTS,    IF(pl_want_heat),            ONCE(pl_run_heat),                                      ONCE,           \
+    X("heat contacts",     CONTACTS,    IF(pl_want_heat),            ONCE(pl_run_heat),                                      ONCE,           \
       "pairs, islands", "", ONE)                                                                                                             \
     X("contact systems",   EDITS,       ALWAYS,                      HOME,                                                   REFRESHES,      \
       "", "", ONE)                                                                                                                           \

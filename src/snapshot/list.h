@@ -190,8 +190,7 @@
 #define PL_STATE_HEATS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(pl_heat, heats.items, heats.count, sizeof(pl_heat), 8)                                   \
     ARRAY(pl_heat_state, heats.state, heats.state_count, sizeof(pl_heat_state), 0)                 \
-    LEFT(heats.bodies) LEFT(heats.links) LEFT(heats.keys) LEFT(heats.link_count) LEFT(heats.room)  \
-    LEFT(heats.gone) LEFT(heats.gone_count)
+    LEFT(heats.step) LEFT(heats.gone_count)
 
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \

@@ -39,14 +39,36 @@ pl_heat pl_heat_get(const plumb_world *world, plumb_body body)
     return found != NULL ? *found : (pl_heat){ .body = body, PL_BODY_ROWS(PL_ROW_HEAT, DEFAULT) };
 }
 
+// Systems add records amid a step, which has room for them.
 bool pl_heat_reserve(plumb_world *world, uint32_t extra)
 {
     pl_heats *heats = &world->heats;
-    return pl_buffer_reserve(&world->memory, &heats->items,
-                             ((size_t)heats->count + extra) * sizeof(pl_heat)) &&
-           pl_buffer_reserve(&world->memory, &heats->bodies, // systems add records amid a step
-                             ((size_t)heats->count + extra) * sizeof(pl_heat_body)) &&
-           pl_buffer_reserve(&world->memory, &heats->state, sizeof(pl_heat_state));
+    const size_t count = (size_t)heats->count + extra;
+    const bool is_new = heats->step.data == NULL;
+    if (!pl_buffer_reserve(&world->memory, &heats->step, sizeof(pl_heat_step))) {
+        return false;
+    }
+    if (is_new) {
+        memset(heats->step.data, 0, sizeof(pl_heat_step));
+    }
+    return pl_buffer_reserve(&world->memory, &heats->items, count * sizeof(pl_heat)) &&
+           pl_buffer_reserve(&world->memory, &heats->state, sizeof(pl_heat_state)) &&
+           pl_buffer_reserve(&world->memory, &pl_heat_step_of(heats)->bodies,
+                             count * sizeof(pl_heat_body));
+}
+
+void pl_heats_free(pl_memory *memory, pl_heats *heats)
+{
+    pl_heat_step *step = pl_heat_step_of(heats);
+    if (step != NULL) {
+        pl_buffer_free(memory, &step->bodies);
+        pl_buffer_free(memory, &step->links);
+        pl_buffer_free(memory, &step->keys);
+        pl_buffer_free(memory, &step->gone);
+    }
+    pl_buffer_free(memory, &heats->items);
+    pl_buffer_free(memory, &heats->state);
+    pl_buffer_free(memory, &heats->step);
 }
 
 bool pl_heat_is_any(const pl_heat *values)

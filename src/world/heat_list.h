@@ -10,6 +10,7 @@ pl_heat *pl_heat_find(const plumb_world *world, plumb_body body);
 pl_heat pl_heat_get(const plumb_world *world, plumb_body body);
 // Room for so many more records.
 bool pl_heat_reserve(plumb_world *world, uint32_t extra);
+void pl_heats_free(pl_memory *memory, pl_heats *heats);
 // Gives the body of `values` them; all defaults: takes its record away. Room must be reserved.
 void pl_heat_set(plumb_world *world, const pl_heat *values);
 // A body that is made: what its descriptor asks for, and whether that is anything.

@@ -71,7 +71,7 @@ static void bad_calls_are_refused(void **state)
     REFUSED(E_RANGE, "plumb_body_set_temperature: temperature is -1; it must be 0 to 1e+06",
             plumb_body_set_temperature(w, f->dynamic, -1));
     assert_int_equal(plumb_world_heat(NULL, &sums), PLUMB_E_NULL);
-    REFUSED(E_NULL, "plumb_world_heat: sums is null", plumb_world_heat(w, NULL));
+    REFUSED(E_NULL, "plumb_world_heat: sums is null; it must be given", plumb_world_heat(w, NULL));
     int count = 7;
     assert_null(plumb_world_body_gone_events(NULL, &count));
     assert_int_equal(count, 0);

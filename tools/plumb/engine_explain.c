@@ -84,7 +84,7 @@ static const struct reason {
     { "immersion", FLUIDS, IMMERSED },
     { "engines", THRUSTING, SAME },
     { "burning", THRUSTING, SAME },
-    { "heat", HEATED, SAME },
+    { "heat contacts", HEATED, SAME },
     { "heat flow", HEATED, SAME },
     { "acting", NOBODY, BODIES },
     { "measure bodies", NOBODY, BODIES },

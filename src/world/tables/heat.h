@@ -45,16 +45,21 @@ typedef struct pl_heat_link {
     double conductance; // [W/K]
 } pl_heat_link;
 
+// Scratch, and events: made with the first record, as most worlds have none.
+typedef struct pl_heat_step {
+    pl_buffer bodies;      // pl_heat_body
+    pl_buffer links, keys; // pl_heat_link, pl_keyed
+    pl_buffer gone;        // plumb_body_gone
+    uint32_t link_count;
+    uint32_t room; // contacts that there is room for; 0: a system gave the first body heat in the middle of the step
+} pl_heat_step;
+
 typedef struct pl_heats {
     pl_buffer items; // pl_heat, by rising index of the body's handle
     uint32_t count;
     uint32_t state_count;
-    pl_buffer state;       // pl_heat_state: one, or none
-    pl_buffer bodies;      // pl_heat_body; scratch
-    pl_buffer links, keys; // pl_heat_link, pl_keyed; scratch
-    uint32_t link_count;
-    uint32_t room; // contacts that there is room for; 0: a system gave the first body heat in the middle of the step
-    pl_buffer gone; // plumb_body_gone
+    pl_buffer state; // pl_heat_state: one, or none
+    pl_buffer step;  // pl_heat_step: one, or none
     uint32_t gone_count;
 } pl_heats;
 
@@ -66,6 +71,11 @@ static inline pl_heat *pl_heat_items(const pl_heats *heats)
 static inline pl_heat_state *pl_heat_state_of(const pl_heats *heats)
 {
     return (pl_heat_state *)heats->state.data;
+}
+
+static inline pl_heat_step *pl_heat_step_of(const pl_heats *heats)
+{
+    return (pl_heat_step *)heats->step.data;
 }
 
 #endif
