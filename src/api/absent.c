@@ -7,7 +7,7 @@
 #include "accuracy/dial.h"
 #include "air/air.h"
 #include "api/fracture.h"
-#include "api/heat.h"
+#include "api/heat_run.h"
 #include "character/character.h"
 #include "continuous/continuous.h"
 #include "effects/drag.h"

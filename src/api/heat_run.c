@@ -9,7 +9,7 @@
 //
 // Reads: records. Writes: bodies, as merge.c scales them; particles; events. Order: after the commands, by handles. Cost: O(bodies with
 // heat) + that of plumb_body_scale for each that changes, + a query a particle.
-#include "api/heat.h"
+#include "api/heat_run.h"
 
 #include "math/decay.h"
 #include "plumb/fracture.h"
@@ -290,10 +290,12 @@ static void plan(change *c, pl_heat *heat)
     c->factor = fabs(heat->grown) < LEAST ? 1
                 : heat->grown < 0         ? pl_decay_of(-heat->grown).left
                                           : 1 / pl_decay_of(heat->grown).left;
-    if (heat->molten > 0 && heat->molten >= least && heat->molten >= c->drop) {
-        if (!count_drops(c, heat->molten)) {
-            forget_melt(c->world, heat);
-        }
+    if (!(c->mass > 0)) { // dynamic no more
+        return;
+    }
+    if (heat->molten > 0 && heat->molten >= least && heat->molten >= c->drop &&
+        !count_drops(c, heat->molten)) {
+        forget_melt(c->world, heat);
     }
     c->lost = c->drops * c->drop;
     if (c->lost > 0 || heat->burnt >= least) {
@@ -304,7 +306,8 @@ static void plan(change *c, pl_heat *heat)
 // Whether what is left is too little. Burnt mass is in the shapes as they are.
 static bool is_over(const change *c, const pl_heat *heat)
 {
-    const bool changes = heat->molten > 0 || heat->burnt > 0 || heat->grown < 0;
+    const bool loses = c->mass > 0 && (heat->molten > 0 || heat->burnt > 0);
+    const bool changes = loses || heat->grown < 0;
     const double solid = c->mass > 0 ? 1 - (heat->molten + heat->burnt) / c->mass : 1;
     const double grown = heat->grown < 0 ? pl_decay_of(-heat->grown).left : 1;
     const uint32_t row = pl_body_row(c->world, c->body);

@@ -1,7 +1,7 @@
 // step.c - the public step: what was asked for beforehand, the step itself, who looks on.
 #include "api/command.h"
 #include "api/fracture.h"
-#include "api/heat.h"
+#include "api/heat_run.h"
 #include "step/step.h"
 #include "world/check.h"
 #include "world/observer.h"

@@ -1,6 +1,6 @@
-// heat.h - what melts, burns and grows, as a step's commands call it.
-#ifndef PL_API_HEAT_H
-#define PL_API_HEAT_H
+// heat_run.h - what melts, burns and grows, as a step's commands call it.
+#ifndef PL_API_HEAT_RUN_H
+#define PL_API_HEAT_RUN_H
 
 #include "world/state.h"
 
