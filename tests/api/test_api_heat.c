@@ -10,38 +10,43 @@
 #define NAN_ ((plumb_real)NAN)
 #define NONE ((plumb_body)PLUMB_NULL_INIT)
 
+// Of world w and body b: what is set, what must not be, and how.
 #define PROPERTIES(X)                                                                              \
-    X(temperature, 300, 2e6)                                                                       \
-    X(heat_capacity, 450, -1)                                                                      \
-    X(conductance, 12, 2e9)                                                                        \
-    X(emissivity, 0.5, 1.5)                                                                        \
-    X(ambient, 250, -1)                                                                            \
-    X(heating, -40, 2e12)                                                                          \
-    X(melting_point, 273, -1)                                                                      \
-    X(latent_heat, 3e5, -1)                                                                        \
-    X(melt_phase, 2, 8)                                                                            \
-    X(ignition, 600, -1)                                                                           \
-    X(burn_rate, 0.25, -1)                                                                         \
-    X(burn_heat, 1e6, -1)                                                                          \
-    X(growth, -0.5, 101)                                                                           \
-    X(smallest, 0.125, 2e4)
+    X(temperature, 300, 2e6, plumb_body_set_temperature(w, b, v))                                  \
+    X(heat_capacity, 450, -1, plumb_body_set_heat_capacity(w, b, v))                               \
+    X(conductance, 12, 2e9, plumb_body_set_conductance(w, b, v))                                   \
+    X(emissivity, 0.5, 1.5, plumb_body_set_emissivity(w, b, v))                                    \
+    X(ambient, 250, -1, plumb_body_set_ambient(w, b, v))                                           \
+    X(heating, -40, 2e12, plumb_body_set_heating(w, b, v))                                         \
+    X(melting_point, 273, -1, plumb_body_set_melting_point(w, b, v))                               \
+    X(latent_heat, 3e5, -1, plumb_body_set_latent_heat(w, b, v))                                   \
+    X(melt_phase, 2, 8, plumb_body_set_melt_phase(w, b, v))                                        \
+    X(ignition, 600, -1, plumb_body_set_ignition(w, b, v))                                         \
+    X(burn_rate, 0.25, -1, plumb_body_set_burn_rate(w, b, v))                                      \
+    X(burn_heat, 1e6, -1, plumb_body_set_burn_heat(w, b, v))                                       \
+    X(growth, -0.5, 101, plumb_body_set_growth(w, b, v))                                           \
+    X(smallest, 0.125, 2e4, plumb_body_set_smallest(w, b, v))
 
 static void each_is_set_and_read(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
+    const plumb_body b = f->dynamic;
     plumb_body_desc d, all = { 0 };
-    assert_int_equal(plumb_body_get(w, f->dynamic, &d), PLUMB_OK);
+    assert_int_equal(plumb_body_get(w, b, &d), PLUMB_OK);
     assert_true(d.temperature == 0 && d.heat_capacity == 1000 && d.ambient == 293 &&
                 d.smallest == R(0.02) && d.growth == 0);
-#define SET(name, value, bad)                                                                      \
-    assert_int_equal(plumb_body_set_##name(w, f->dynamic, R(value)), PLUMB_OK);                    \
-    assert_near(plumb_body_##name(w, f->dynamic), R(value), 0);                                    \
-    all.name = R(value);
+#define SET(name, value, bad, call)                                                                \
+    {                                                                                              \
+        const plumb_real v = R(value);                                                             \
+        assert_int_equal(call, PLUMB_OK);                                                          \
+        assert_near(plumb_body_##name(w, b), v, 0);                                                \
+        all.name = v;                                                                              \
+    }
     PROPERTIES(SET)
-    assert_int_equal(plumb_body_get(w, f->dynamic, &d), PLUMB_OK);
+    assert_int_equal(plumb_body_get(w, b, &d), PLUMB_OK);
     const plumb_body made = plumb_body_create(w, &all);
-#define IS(name, value, bad)                                                                       \
+#define IS(name, value, bad, call)                                                                 \
     assert_true(d.name == R(value));                                                               \
     assert_near(plumb_body_##name(w, made), R(value), 0);
     PROPERTIES(IS)
@@ -49,25 +54,41 @@ static void each_is_set_and_read(void **state)
     assert_near(plumb_body_heat_capacity(w, f->fixed), 1000, 0);
 }
 
+static plumb_result refused_body(plumb_world *w, const plumb_body_desc *d)
+{
+    assert_true(plumb_is_null(plumb_body_create(w, d)));
+    return plumb_world_error(w).code;
+}
+
+#define REFUSED_AS(code, call)                                                                     \
+    do {                                                                                           \
+        const uint64_t before_ = digest_world(f->world);                                           \
+        assert_int_equal((call), PLUMB_##code);                                                    \
+        assert_true(digest_world(f->world) == before_);                                            \
+    } while (0)
+
 static void bad_calls_are_refused(void **state)
 {
     fixture *f = *state;
-    plumb_world *w = f->world;
     plumb_heat_sums sums;
-#define REFUSE(name, value, bad)                                                                   \
-    REFUSED_AS(E_RANGE, plumb_body_set_##name(w, f->dynamic, R(bad)));                             \
-    REFUSED_AS(E_NOT_FINITE, plumb_body_set_##name(w, f->dynamic, NAN_));                          \
-    REFUSED_AS(E_HANDLE, plumb_body_set_##name(w, NONE, R(value)));                                \
-    assert_int_equal(plumb_body_set_##name(NULL, f->dynamic, R(value)), PLUMB_E_NULL);             \
-    assert_true(plumb_is_null(plumb_body_create(w, &(plumb_body_desc){ .name = R(bad) })));        \
-    assert_near(plumb_body_##name(w, NONE), 0, 0);
-#define REFUSED_AS(code, call)                                                                     \
-    do {                                                                                           \
-        const uint64_t before_ = digest_world(w);                                                  \
-        assert_int_equal((call), PLUMB_##code);                                                    \
-        assert_true(digest_world(w) == before_);                                                   \
-    } while (0)
+#define REFUSE(name, value, bad, call)                                                             \
+    {                                                                                              \
+        plumb_world *w = f->world;                                                                 \
+        plumb_body b = f->dynamic;                                                                 \
+        plumb_real v = R(bad);                                                                     \
+        REFUSED_AS(E_RANGE, call);                                                                 \
+        REFUSED_AS(E_RANGE, refused_body(w, &(plumb_body_desc){ .name = v }));                     \
+        v = NAN_;                                                                                  \
+        REFUSED_AS(E_NOT_FINITE, call);                                                            \
+        v = R(value);                                                                              \
+        b = NONE;                                                                                  \
+        REFUSED_AS(E_HANDLE, call);                                                                \
+        assert_near(plumb_body_##name(w, b), 0, 0);                                                \
+        w = NULL;                                                                                  \
+        REFUSED_AS(E_NULL, call);                                                                  \
+    }
     PROPERTIES(REFUSE)
+    plumb_world *w = f->world;
     REFUSED(E_RANGE, "plumb_body_set_temperature: temperature is -1; it must be 0 to 1e+06",
             plumb_body_set_temperature(w, f->dynamic, -1));
     assert_int_equal(plumb_world_heat(NULL, &sums), PLUMB_E_NULL);
