@@ -20,7 +20,6 @@ typedef struct search {
     pl_query *q;
     const pl_beam *beam;
     pl_beam_event last, best;
-    double slack; // [m] what rounding may do to places
     pl_walk walk;
 } search;
 
@@ -78,8 +77,7 @@ static bool visit_way(void *context, const pl_grid_entry *entry)
     const pl_beam *b = s->beam;
     const plumb_world *world = s->q->world;
     const uint32_t piece = entry->piece;
-    const bool same = piece == b->piece;
-    if ((same && b->side == PL_BEAM_OUTWARD) || !sees(s->q, piece)) {
+    if (!sees(s->q, piece)) {
         return true;
     }
     plumb_convex convex;
@@ -88,6 +86,12 @@ static bool visit_way(void *context, const pl_grid_entry *entry)
     pl_piece_convex(world, piece, &convex);
     pl_span_round(&convex, pl_query_frame_of(world, entry), b->x, b->y, &round);
     if (!pl_span_of(&round, b->dx, b->dy, &span)) {
+        return true;
+    }
+    // In a world that wraps around another image of the piece may lie ahead.
+    const bool same =
+        piece == b->piece && !(pl_is_wrapped(world) && span.enter > (double)PLUMB_WELD_DISTANCE);
+    if (same && b->side == PL_BEAM_OUTWARD) {
         return true;
     }
     if (round.count == 2 && round.radius == 0) {
@@ -99,11 +103,12 @@ static bool visit_way(void *context, const pl_grid_entry *entry)
     const bool inward = same && b->side == PL_BEAM_INWARD;
     // How deep the start lies below the surface at which the beam would leave: what stands on a face that it goes away from is not in.
     const double depth = span.leave * (b->dx * span.leave_x + b->dy * span.leave_y);
-    if (!inward && span.enter <= 0 && depth <= s->slack) {
+    const double slack = ROUNDINGS * (fabs(b->x) + fabs(b->y) + fabs(span.leave));
+    if (!inward && span.enter <= 0 && depth <= slack) {
         return true;
     }
     if (!pl_beam_passes(world, piece)) {
-        meet_opaque(s, piece, &span, span.enter < -s->slack);
+        meet_opaque(s, piece, &span, span.enter < -slack);
         return true;
     }
     if (!inward && span.enter > 0) {
@@ -127,7 +132,6 @@ pl_beam_event pl_beam_next(pl_query *q, const pl_beam *beam, const pl_beam_event
 {
     const double ex = beam->x + beam->length * beam->dx, ey = beam->y + beam->length * beam->dy;
     search s = { .q = q, .beam = beam, .last = *last, .best = { .piece = PL_NONE } };
-    s.slack = ROUNDINGS * (fabs(beam->x) + fabs(beam->y) + 1);
     s.walk = pl_walk_make((plumb_vec2){ (plumb_real)beam->x, (plumb_real)beam->y },
                           (plumb_vec2){ (plumb_real)ex, (plumb_real)ey });
     walk_grids(q, &s.walk, visit_way, &s);

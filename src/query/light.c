@@ -175,7 +175,7 @@ static pl_beam reflect(const trace *t, const pl_beam *beam, const pl_beam_event 
     const double along = beam->dx * event->nx + beam->dy * event->ny;
     const double dx = beam->dx - 2 * along * event->nx, dy = beam->dy - 2 * along * event->ny;
     const double size = sqrt(dx * dx + dy * dy);
-    const double back = BACK * (fabs(beam->x) + fabs(beam->y));
+    const double back = BACK * (fabs(beam->x) + fabs(beam->y) + event->at);
     next.x -= back * beam->dx;
     next.y -= back * beam->dy;
     next.dx = dx / size;

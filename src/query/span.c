@@ -73,11 +73,15 @@ static void cross_disc(pl_span *span, double dx, double dy, double x, double y, 
     go_out(span, along + half, (across_x + half * dx) / radius, (across_y + half * dy) / radius);
 }
 
-// A line of no thickness: its normal is against the ray.
+// A line of no thickness is one edge, met from either side.
 static bool cross_line(const pl_round *r, double dx, double dy, pl_span *out)
 {
     cross_edge(out, dx, dy, r->x[0], r->y[0], r->x[1], r->y[1]);
-    cross_edge(out, dx, dy, r->x[1], r->y[1], r->x[0], r->y[0]);
+    if (out->enter < HUGE_VAL) {
+        go_out(out, out->enter, -out->enter_x, -out->enter_y);
+    } else if (out->leave > -HUGE_VAL) {
+        come_in(out, out->leave, -out->leave_x, -out->leave_y);
+    }
     return out->enter <= out->leave;
 }
 
