@@ -7,7 +7,7 @@ local wood = material { density = 100, friction = 0.6 }
 local dark = material { friction = 0.6 }
 local mirror = material { reflectance = KEEPS }
 local glass = material { refractive_index = 1.5 }
-local stone = material { density = 900, friction = 0.9 }
+local stone = material { density = 120, friction = 0.9 }
 
 -- walls, and lanes between them
 body { name = "frame", type = "static", material = dark,
@@ -28,13 +28,13 @@ corner("second", 11.2, 4.3, 1)  -- then to the left
 corner("third", 1.2, 4.3, 1)    -- down
 corner("fourth", 1.2, 2.5, -1)  -- to the right again
 
--- the lever, held up by a weak motor; the mirror stands in its pivot
+-- the lever, held up by a weak motor, slow by a dashpot; the mirror stands in its pivot
 body { name = "lever", at = {6, 2.5}, angle_deg = 15, material = wood,
     segment { {-0.3, -0.3 * math.tan(radians(60))}, {0.3, 0.3 * math.tan(radians(60))}, material = mirror },
     box { 2.1, 0.08, at = {1.3, 0}, density = 20 },
     box { 0.08, 0.5, at = {1.55, 0.21}, density = 20 },
     box { 0.08, 0.5, at = {2.31, 0.21}, density = 20 } }
-revolute { "lever", world, at = {6, 2.5}, limits = {0, radians(30)}, motor = { speed = -2, torque = 90 }, name = "pivot" }
+revolute { "lever", world, at = {6, 2.5}, limits = {0, radians(30)}, motor = { speed = -2, torque = 110 }, spring = { damper = 60 }, name = "pivot" }
 
 body { name = "gate", type = "static", box { 0.8, 0.1 }, at = {7.93, 7.35}, material = dark }
 body { name = "ball", circle { 0.2 }, at = {7.93, 7.61}, material = stone }
