@@ -20,7 +20,7 @@
 /// - Segments and chains are mirrors on both sides. With a refractive index they are films without thickness: what they do not
 ///   reflect goes straight on.
 /// - One-way shapes are met from all sides, or as the filter says. Sensors are passed over; where the filter
-///   sees them, those with a refractive index are met, such as the water of a pool.
+///   sees them, those with a refractive index are met, such as the water of a pool, as if its surface were still.
 /// - Directions, angles and places are computed in double in all precisions, from the shapes as they are stored.
 #ifndef PLUMB_LIGHT_H
 #define PLUMB_LIGHT_H

@@ -101,12 +101,16 @@ static double power_of(const pl_beam *beam)
     return beam->power[0] + beam->power[1];
 }
 
-// Lets a beam wait, or cuts it off.
+// Lets a beam wait, or ends it: cut off, or at the end of its length.
 static void wait(trace *t, const pl_beam *beam)
 {
     const double power = power_of(beam);
     if (!(power >= (double)t->desc.min_power) || beam->depth > t->desc.max_bounces) {
         t->sum.cut += power;
+        return;
+    }
+    if (!(beam->length > 0)) {
+        t->sum.left += power;
         return;
     }
     t->beams[t->waiting++] = *beam;
