@@ -1,17 +1,18 @@
-// span.c - see span.h.
+// passage.c - see passage.h.
 //
 // An edge is crossed where its two ends lie on different sides of the line: of edges that share an end one is, whatever
 // rounding does. A rounded shape is the union of the full discs about its corners, its edges moved out and its core, so a line comes in
 // where it first meets one of the two, and goes out where it last does.
 //
 // Reads: arguments. Writes: the answer. Cost: O(corners), a root a corner where it is rounded.
-#include "query/span.h"
+#include "query/passage.h"
 
 #include "query/query.h"
 
 #include <math.h>
 
-void pl_span_round(const plumb_convex *convex, plumb_transform t, double x, double y, pl_round *out)
+void pl_passage_round(const plumb_convex *convex, plumb_transform t, double x, double y,
+                      pl_round *out)
 {
     const double c = (double)t.q.c, s = (double)t.q.s, size = sqrt(c * c + s * s);
     const double px = (double)t.p.x - x, py = (double)t.p.y - y;
@@ -24,26 +25,26 @@ void pl_span_round(const plumb_convex *convex, plumb_transform t, double x, doub
     }
 }
 
-static void come_in(pl_span *span, double t, double nx, double ny)
+static void come_in(pl_passage *passage, double t, double nx, double ny)
 {
-    if (t < span->enter) {
-        span->enter = t;
-        span->enter_x = nx;
-        span->enter_y = ny;
+    if (t < passage->enter) {
+        passage->enter = t;
+        passage->enter_x = nx;
+        passage->enter_y = ny;
     }
 }
 
-static void go_out(pl_span *span, double t, double nx, double ny)
+static void go_out(pl_passage *passage, double t, double nx, double ny)
 {
-    if (t > span->leave) {
-        span->leave = t;
-        span->leave_x = nx;
-        span->leave_y = ny;
+    if (t > passage->leave) {
+        passage->leave = t;
+        passage->leave_x = nx;
+        passage->leave_y = ny;
     }
 }
 
 // The edge from a to b of a shape that lies to its left.
-static void cross_edge(pl_span *span, double dx, double dy, double ax, double ay, double bx,
+static void cross_edge(pl_passage *passage, double dx, double dy, double ax, double ay, double bx,
                        double by)
 {
     const double a = dx * ay - dy * ax, b = dx * by - dy * bx; // how far to the left of the line
@@ -54,13 +55,13 @@ static void cross_edge(pl_span *span, double dx, double dy, double ax, double ay
     const double at_a = dx * ax + dy * ay, along = dx * ex + dy * ey;
     const double t = at_a + along * (a / (a - b));
     if (b < a) {
-        come_in(span, t, ey / length, -ex / length);
+        come_in(passage, t, ey / length, -ex / length);
     } else {
-        go_out(span, t, ey / length, -ex / length);
+        go_out(passage, t, ey / length, -ex / length);
     }
 }
 
-static void cross_disc(pl_span *span, double dx, double dy, double x, double y, double radius)
+static void cross_disc(pl_passage *passage, double dx, double dy, double x, double y, double radius)
 {
     const double off = dx * y - dy * x, along = dx * x + dy * y;
     const double half_sq = (radius - off) * (radius + off);
@@ -69,12 +70,13 @@ static void cross_disc(pl_span *span, double dx, double dy, double x, double y, 
     }
     const double half = sqrt(half_sq);
     const double across_x = off * dy, across_y = -off * dx; // from the centre to the line
-    come_in(span, along - half, (across_x - half * dx) / radius, (across_y - half * dy) / radius);
-    go_out(span, along + half, (across_x + half * dx) / radius, (across_y + half * dy) / radius);
+    come_in(passage, along - half, (across_x - half * dx) / radius,
+            (across_y - half * dy) / radius);
+    go_out(passage, along + half, (across_x + half * dx) / radius, (across_y + half * dy) / radius);
 }
 
 // A line of no thickness is one edge, met from either side.
-static bool cross_line(const pl_round *r, double dx, double dy, pl_span *out)
+static bool cross_line(const pl_round *r, double dx, double dy, pl_passage *out)
 {
     cross_edge(out, dx, dy, r->x[0], r->y[0], r->x[1], r->y[1]);
     if (out->enter < HUGE_VAL) {
@@ -85,9 +87,9 @@ static bool cross_line(const pl_round *r, double dx, double dy, pl_span *out)
     return out->enter <= out->leave;
 }
 
-bool pl_span_of(const pl_round *r, double dx, double dy, pl_span *out)
+bool pl_passage_of(const pl_round *r, double dx, double dy, pl_passage *out)
 {
-    *out = (pl_span){ .enter = HUGE_VAL, .leave = -HUGE_VAL };
+    *out = (pl_passage){ .enter = HUGE_VAL, .leave = -HUGE_VAL };
     if (r->count == 2 && r->radius == 0) {
         return cross_line(r, dx, dy, out);
     }
@@ -108,7 +110,7 @@ bool pl_span_of(const pl_round *r, double dx, double dy, pl_span *out)
     return out->enter <= out->leave;
 }
 
-bool pl_span_holds(const pl_round *r)
+bool pl_passage_holds(const pl_round *r)
 {
     bool in_core = r->count > 2;
     double nearest_sq = HUGE_VAL;
