@@ -1,6 +1,6 @@
 // beam.c - see beam.h.
 //
-// A line lies in a convex piece along one passage; its ends are what a beam meets. Which medium is behind an end is asked at a point a
+// A line lies in a convex piece along one transit; its ends are what a beam meets. Which medium is behind an end is asked at a point a
 // gap's width beyond it, so that nothing is remembered of shapes but the medium that the beam runs in: shapes may overlap,
 // touch and lie in one another in any way.
 //
@@ -8,12 +8,12 @@
 // look O(corners) a box about the point.
 #include "query/beam.h"
 
-#include "query/passage.h"
+#include "query/transit.h"
 #include "query/walk.h"
 
 #include <math.h>
 
-// Roundings of a coordinate that the end of a passage may be off.
+// Roundings of a coordinate that the end of a transit may be off.
 #define ROUNDINGS (64 * 2.3e-16)
 
 typedef struct search {
@@ -60,12 +60,12 @@ static bool lets_pass(const search *s, uint32_t piece, double nx, double ny)
     return pl_query_passes(s->q, piece, (plumb_vec2){ (plumb_real)nx, (plumb_real)ny });
 }
 
-static void meet_opaque(search *s, uint32_t piece, const pl_passage *passage, bool starts_in)
+static void meet_opaque(search *s, uint32_t piece, const pl_transit *transit, bool starts_in)
 {
-    if (passage->enter > 0 || !starts_in) {
-        if (!lets_pass(s, piece, passage->enter_x, passage->enter_y)) {
-            offer(s, piece, PL_BEAM_OPAQUE, pl_most(passage->enter, 0), passage->enter_x,
-                  passage->enter_y);
+    if (transit->enter > 0 || !starts_in) {
+        if (!lets_pass(s, piece, transit->enter_x, transit->enter_y)) {
+            offer(s, piece, PL_BEAM_OPAQUE, pl_most(transit->enter, 0), transit->enter_x,
+                  transit->enter_y);
         }
     } else if (!lets_pass(s, piece, 0, 0)) {
         offer(s, piece, PL_BEAM_OPAQUE, 0, 0, 0);
@@ -83,39 +83,39 @@ static bool visit_way(void *context, const pl_grid_entry *entry)
     }
     plumb_convex convex;
     pl_round round;
-    pl_passage passage;
+    pl_transit transit;
     pl_piece_convex(world, piece, &convex);
-    pl_passage_round(&convex, pl_query_frame_of(world, entry), b->x, b->y, &round);
-    if (!pl_passage_of(&round, b->dx, b->dy, &passage)) {
+    pl_transit_round(&convex, pl_query_frame_of(world, entry), b->x, b->y, &round);
+    if (!pl_transit_of(&round, b->dx, b->dy, &transit)) {
         return true;
     }
     // In a world that wraps around another image of the piece may lie ahead.
     const bool same =
-        piece == b->piece && !(pl_is_wrapped(world) && passage.enter > (double)PLUMB_WELD_DISTANCE);
+        piece == b->piece && !(pl_is_wrapped(world) && transit.enter > (double)PLUMB_WELD_DISTANCE);
     if (same && b->side == PL_BEAM_OUTWARD) {
         return true;
     }
     if (round.count == 2 && round.radius == 0) {
-        if (passage.enter > 0 && !lets_pass(s, piece, passage.enter_x, passage.enter_y)) {
-            offer(s, piece, PL_BEAM_LINE, passage.enter, passage.enter_x, passage.enter_y);
+        if (transit.enter > 0 && !lets_pass(s, piece, transit.enter_x, transit.enter_y)) {
+            offer(s, piece, PL_BEAM_LINE, transit.enter, transit.enter_x, transit.enter_y);
         }
         return true;
     }
     const bool inward = same && b->side == PL_BEAM_INWARD;
     // How deep the start lies below the surface at which the beam would leave: what stands on a face that it goes away from is not in.
-    const double depth = passage.leave * (b->dx * passage.leave_x + b->dy * passage.leave_y);
-    const double slack = ROUNDINGS * (fabs(b->x) + fabs(b->y) + fabs(passage.leave));
-    if (!inward && passage.enter <= 0 && depth <= slack) {
+    const double depth = transit.leave * (b->dx * transit.leave_x + b->dy * transit.leave_y);
+    const double slack = ROUNDINGS * (fabs(b->x) + fabs(b->y) + fabs(transit.leave));
+    if (!inward && transit.enter <= 0 && depth <= slack) {
         return true;
     }
     if (!pl_beam_passes(world, piece)) {
-        meet_opaque(s, piece, &passage, passage.enter < -slack);
+        meet_opaque(s, piece, &transit, transit.enter < -slack);
         return true;
     }
-    if (!inward && passage.enter > 0) {
-        offer(s, piece, PL_BEAM_ENTERS, passage.enter, passage.enter_x, passage.enter_y);
+    if (!inward && transit.enter > 0) {
+        offer(s, piece, PL_BEAM_ENTERS, transit.enter, transit.enter_x, transit.enter_y);
     }
-    offer(s, piece, PL_BEAM_LEAVES, pl_most(passage.leave, 0), -passage.leave_x, -passage.leave_y);
+    offer(s, piece, PL_BEAM_LEAVES, pl_most(transit.leave, 0), -transit.leave_x, -transit.leave_y);
     return true;
 }
 
@@ -194,8 +194,8 @@ static bool visit_point(void *context, const pl_grid_entry *entry)
     plumb_convex convex;
     pl_round round;
     pl_piece_convex(p->q->world, piece, &convex);
-    pl_passage_round(&convex, pl_query_frame_of(p->q->world, entry), p->x, p->y, &round);
-    if (pl_passage_holds(&round) && pl_query_accepts(p->q, p->q->world->pieces.shape[piece])) {
+    pl_transit_round(&convex, pl_query_frame_of(p->q->world, entry), p->x, p->y, &round);
+    if (pl_transit_holds(&round) && pl_query_accepts(p->q, p->q->world->pieces.shape[piece])) {
         take(p, piece);
     }
     return true;

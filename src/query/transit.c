@@ -1,17 +1,17 @@
-// passage.c - see passage.h.
+// transit.c - see transit.h.
 //
 // An edge is crossed where its two ends lie on different sides of the line: of edges that share an end one is, whatever
 // rounding does. A rounded shape is the union of the full discs about its corners, its edges moved out and its core, so a line comes in
 // where it first meets one of the two, and goes out where it last does.
 //
 // Reads: arguments. Writes: the answer. Cost: O(corners), a root a corner where it is rounded.
-#include "query/passage.h"
+#include "query/transit.h"
 
 #include "query/query.h"
 
 #include <math.h>
 
-void pl_passage_round(const plumb_convex *convex, plumb_transform t, double x, double y,
+void pl_transit_round(const plumb_convex *convex, plumb_transform t, double x, double y,
                       pl_round *out)
 {
     const double c = (double)t.q.c, s = (double)t.q.s, size = sqrt(c * c + s * s);
@@ -25,26 +25,26 @@ void pl_passage_round(const plumb_convex *convex, plumb_transform t, double x, d
     }
 }
 
-static void come_in(pl_passage *passage, double t, double nx, double ny)
+static void come_in(pl_transit *transit, double t, double nx, double ny)
 {
-    if (t < passage->enter) {
-        passage->enter = t;
-        passage->enter_x = nx;
-        passage->enter_y = ny;
+    if (t < transit->enter) {
+        transit->enter = t;
+        transit->enter_x = nx;
+        transit->enter_y = ny;
     }
 }
 
-static void go_out(pl_passage *passage, double t, double nx, double ny)
+static void go_out(pl_transit *transit, double t, double nx, double ny)
 {
-    if (t > passage->leave) {
-        passage->leave = t;
-        passage->leave_x = nx;
-        passage->leave_y = ny;
+    if (t > transit->leave) {
+        transit->leave = t;
+        transit->leave_x = nx;
+        transit->leave_y = ny;
     }
 }
 
 // The edge from a to b of a shape that lies to its left.
-static void cross_edge(pl_passage *passage, double dx, double dy, double ax, double ay, double bx,
+static void cross_edge(pl_transit *transit, double dx, double dy, double ax, double ay, double bx,
                        double by)
 {
     const double a = dx * ay - dy * ax, b = dx * by - dy * bx; // how far to the left of the line
@@ -55,13 +55,13 @@ static void cross_edge(pl_passage *passage, double dx, double dy, double ax, dou
     const double at_a = dx * ax + dy * ay, along = dx * ex + dy * ey;
     const double t = at_a + along * (a / (a - b));
     if (b < a) {
-        come_in(passage, t, ey / length, -ex / length);
+        come_in(transit, t, ey / length, -ex / length);
     } else {
-        go_out(passage, t, ey / length, -ex / length);
+        go_out(transit, t, ey / length, -ex / length);
     }
 }
 
-static void cross_disc(pl_passage *passage, double dx, double dy, double x, double y, double radius)
+static void cross_disc(pl_transit *transit, double dx, double dy, double x, double y, double radius)
 {
     const double off = dx * y - dy * x, along = dx * x + dy * y;
     const double half_sq = (radius - off) * (radius + off);
@@ -70,13 +70,13 @@ static void cross_disc(pl_passage *passage, double dx, double dy, double x, doub
     }
     const double half = sqrt(half_sq);
     const double across_x = off * dy, across_y = -off * dx; // from the centre to the line
-    come_in(passage, along - half, (across_x - half * dx) / radius,
+    come_in(transit, along - half, (across_x - half * dx) / radius,
             (across_y - half * dy) / radius);
-    go_out(passage, along + half, (across_x + half * dx) / radius, (across_y + half * dy) / radius);
+    go_out(transit, along + half, (across_x + half * dx) / radius, (across_y + half * dy) / radius);
 }
 
 // A line of no thickness is one edge, met from either side.
-static bool cross_line(const pl_round *r, double dx, double dy, pl_passage *out)
+static bool cross_line(const pl_round *r, double dx, double dy, pl_transit *out)
 {
     cross_edge(out, dx, dy, r->x[0], r->y[0], r->x[1], r->y[1]);
     if (out->enter < HUGE_VAL) {
@@ -87,9 +87,9 @@ static bool cross_line(const pl_round *r, double dx, double dy, pl_passage *out)
     return out->enter <= out->leave;
 }
 
-bool pl_passage_of(const pl_round *r, double dx, double dy, pl_passage *out)
+bool pl_transit_of(const pl_round *r, double dx, double dy, pl_transit *out)
 {
-    *out = (pl_passage){ .enter = HUGE_VAL, .leave = -HUGE_VAL };
+    *out = (pl_transit){ .enter = HUGE_VAL, .leave = -HUGE_VAL };
     if (r->count == 2 && r->radius == 0) {
         return cross_line(r, dx, dy, out);
     }
@@ -110,7 +110,7 @@ bool pl_passage_of(const pl_round *r, double dx, double dy, pl_passage *out)
     return out->enter <= out->leave;
 }
 
-bool pl_passage_holds(const pl_round *r)
+bool pl_transit_holds(const pl_round *r)
 {
     bool in_core = r->count > 2;
     double nearest_sq = HUGE_VAL;
