@@ -120,6 +120,12 @@ typedef struct plumb_material_desc {
     /// others 1992). Free of divergence; stateless. Who is in such a volume stays awake, as in gusts
     plumb_real eddies;
     plumb_real eddy_length; ///< [m] >= 1e-3, of the largest; 0 means 10
+
+    /// What light sees of it (plumb/light.h); nothing else asks for these.
+
+    plumb_real refractive_index; ///< [-] 0..10: glass 1.5, water 1.33, diamond 2.42; 0: opaque
+    plumb_real reflectance;      ///< [-] 0..1, share of the light that its surface sends back, before Fresnel has his; 1: a mirror
+    plumb_real absorption;       ///< [1/m] 0..1e9: of light in it e^(-absorption x) is left after x (Beer, Lambert)
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,

@@ -18,6 +18,7 @@
 #include "plumb/event.h"
 #include "plumb/sleep.h"
 #include "plumb/query.h"
+#include "plumb/light.h"
 #include "plumb/snapshot.h"
 #include "plumb/batch.h"
 #include "plumb/record.h"

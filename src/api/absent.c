@@ -23,6 +23,7 @@
 #include "joints/energy.h"
 #include "joints/measure.h"
 #include "liquid/liquid.h"
+#include "plumb/light.h"
 #include "softbody/softbody.h"
 #include "solver/measure.h"
 #include "step/measure.h"
@@ -237,6 +238,12 @@ FREE(pl_softbodies_free, pl_softbodies)
 GIVES(double, pl_soft_elastic, 0, const plumb_world *world, uint32_t row, pl_softbody_place at)
 GIVES(double, pl_soft_area, 0, const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
 GIVES(double, pl_soft_pressure, 0, const pl_softbody *item, double area)
+#endif
+
+#if !PL_HAS(LIGHT)
+GIVES(int, plumb_world_light, pl_fail_absent(world, __func__, "a ray of light", "light") == PLUMB_OK ? 0 : -1,
+      plumb_world *world, const plumb_light_desc *desc, const plumb_query_filter *filter, plumb_light_segment *segments,
+      int capacity, plumb_light_sum *sum)
 #endif
 
 #if !PL_HAS(CHARACTERS)

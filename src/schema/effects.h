@@ -47,6 +47,8 @@
     X(LIQUID, "liquid", "", "src/liquid/%", "", "particles that flow")                                                         \
     X(AIR, "air", "liquid", "src/air/%", "", "air that flows round shapes, with smoke and heat")                               \
     X(SOFTBODIES, "softbodies", "", "src/softbody/%", "", "ropes, nets and cloth, jelly, skins with gas")                      \
+    X(LIGHT, "light", "", "src/query/light.c src/query/beam.c src/query/fresnel.c src/query/transit.c",                        \
+      "refractive_index reflectance absorption", "rays that mirrors send back and glass bends")                                \
     X(CHARACTERS, "characters", "", "src/character/%", "", "bodies that walk")                                                 \
     X(JOINTS, "joints", "", "src/joints/%", "direct_joints", "of all kinds")                                                   \
     X(PGS, "pgs", "", "src/solver/pgs.c", "", "the classic solver")                                                            \

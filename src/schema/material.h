@@ -74,7 +74,13 @@
     R(X, COLUMN, REAL, eddies, SAID(eddies), "m/s", FROM(0, NO_END), 0, NO_ZERO,                    \
       "root mean square speed of eddies, which pass with the flow and change")                      \
     R(X, COLUMN, REAL, eddy_length, SAID(eddy_length), "m", FROM(1e-3, NO_END), 10, NO_ZERO,          \
-      "size of the largest eddy; the smallest has a sixteenth of it")
+      "size of the largest eddy; the smallest has a sixteenth of it")                               \
+    R(X, COLUMN, REAL, refractive_index, SAID(refractive_index), "1", FROM(0, 10), 0, NO_ZERO,      \
+      "of light in it, by which it bends at surfaces: glass 1.5, water 1.33; 0: opaque")             \
+    R(X, COLUMN, REAL, reflectance, SAID(reflectance), "1", FROM(0, 1), 0, NO_ZERO,                 \
+      "share of light that its surface sends back, be it opaque or not: 1 is a mirror")              \
+    R(X, COLUMN, REAL, absorption, SAID(absorption), "1/m", FROM(0, 1e9), 0, NO_ZERO,               \
+      "of light that goes through it, which falls by e^(-absorption x)")
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \

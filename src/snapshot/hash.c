@@ -13,7 +13,8 @@
 // What few worlds have, and none had once: where it is nowhere, hashes are what they were.
 static bool is_absent(const pl_section *section)
 {
-    static const char *const names[] = { "kinetic_friction", "shelter", "wake" };
+    static const char *const names[] = { "kinetic_friction", "shelter",     "wake",
+                                         "refractive_index", "reflectance", "absorption" };
     bool rare = false;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
         rare |= strcmp(section->name, names[i]) == 0;

@@ -354,7 +354,9 @@ void session_begin(session *s, uint32_t seed, const plumb_world_desc *settings)
                                         .restitution = one_in(s, 3) ? R(0.5) : 0,
                                         .surface_speed = one_in(s, 6) ? 1 : 0,
                                         .adhesion = one_in(s, 8) ? 5 : 0,
-                                        .kinetic_friction = one_in(s, 4) ? R(0.2) : 0 };
+                                        .kinetic_friction = one_in(s, 4) ? R(0.2) : 0,
+                                        .refractive_index = i % 3 == 1 ? R(1.5) : 0,
+                                        .reflectance = i % 3 == 2 ? R(0.7) : 0 };
         s->material[i] = plumb_material_create(s->world, &m);
     }
     make_ground(s);

@@ -14,7 +14,9 @@ enum { STEPS = 40, SESSIONS = 30, QUESTIONS = 8, MOST = 96 };
 
 // All that a world says to one question.
 typedef struct answer {
-    int rays, casts, shapes, near;
+    int rays, casts, shapes, near, pieces;
+    plumb_light_segment light[MOST];
+    plumb_light_sum sum;
     plumb_ray_hit ray[MOST];
     plumb_cast_hit cast[MOST];
     plumb_shape shape[MOST];
@@ -65,7 +67,11 @@ static void ask(plumb_world *w, const question *q, answer *a)
     plumb_world_ray(w, q->from, q->to, &q->filter, &a->first);
     plumb_world_nearest(w, q->from, 3, &q->filter, &a->best);
     a->any = plumb_world_ray_any(w, q->from, q->to, &q->filter);
-    assert_true(a->rays >= 0 && a->casts >= 0 && a->shapes >= 0 && a->near >= 0);
+    const plumb_light_desc light = { .from = q->from,
+                                     .direction = plumb_vec2_sub(q->to, q->from),
+                                     .length = 20 };
+    a->pieces = plumb_world_light(w, &light, &q->filter, a->light, MOST, &a->sum);
+    assert_true(a->pieces > 0 && a->rays >= 0 && a->casts >= 0 && a->shapes >= 0 && a->near >= 0);
 }
 
 static void count_fill(void *context, const plumb_vec2 *points, int count, plumb_color color)
@@ -109,6 +115,7 @@ static const char *other_answer(const session *a, const session *b, uint32_t *se
                 : x.shapes != y.shapes || memcmp(x.shape, y.shape, sizeof x.shape) != 0 ? "overlap"
                 : x.near != y.near || memcmp(x.nearest, y.nearest, sizeof x.nearest) != 0
                     ? "nearest"
+                : x.pieces != y.pieces || memcmp(x.light, y.light, sizeof x.light) != 0 ? "light"
                 : memcmp(&x.first, &y.first, sizeof x.first) != 0 ? "first ray"
                 : memcmp(&x.best, &y.best, sizeof x.best) != 0    ? "best"
                 : x.any != y.any                                  ? "any"

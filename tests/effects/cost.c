@@ -73,6 +73,12 @@ static void add(plumb_world *world)
                                                                          .nodes = 17,
                                                                          .hold_from = true,
                                                                          .hold_to = true })));
+    } else if (is("light")) { // materials alone: light is a question
+        const plumb_material_desc glass = { .refractive_index = R(1.5), .reflectance = R(0.1) };
+        plumb_shape_create(world, body_at(world, (plumb_body_desc){ .type = PLUMB_STATIC }, 30, 5),
+                           &(plumb_shape_desc){ .kind = PLUMB_CIRCLE,
+                                                .radius = 1,
+                                                .material = plumb_material_create(world, &glass) });
     } else if (is("characters")) {
         plumb_body hero = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 1);
         plumb_shape_create(world, hero,

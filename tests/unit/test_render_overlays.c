@@ -390,6 +390,46 @@ static void test_smoke_is_a_veil(void **state)
     render_frame_destroy(frame);
 }
 
+// The brighter the wider, of its colour, and along the line alone.
+static void test_beams_glow(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(300, 300);
+    const render_rgba blue = { 20, 40, 220, 255 }, none = { 0, 0, 0, 0 };
+    const render_vec a = { -1.2, 0.0 }, b = { 1.2, 0.0 };
+    size_t changed[3];
+    const double bright[3] = { 1.0, 0.25, 0.01 };
+    for (int i = 0; i < 3; i++) {
+        render_frame_clear(frame);
+        assert_int_equal(render_add_beam(frame, a, b, bright[i], bright[i], blue), RENDER_OK);
+        draw(target, frame, (render_camera){ .view_height = 3.0 }, flat());
+        changed[i] = changed_pixels(target);
+        const uint8_t *middle = pixel(target, 150, 150);
+        assert_true(middle[2] > middle[0]);
+        assert_memory_equal(pixel(target, 150, 120), &white, 4);
+        assert_memory_equal(pixel(target, 10, 150), &white, 4);
+    }
+    assert_true(changed[0] > changed[1] && changed[1] > changed[2] && changed[2] > 0);
+    render_frame_clear(frame);
+    assert_int_equal(render_add_beam(frame, a, b, 1.0, 0.0, none), RENDER_OK); // fades
+    draw(target, frame, (render_camera){ .view_height = 3.0 }, flat());
+    assert_true(pixel(target, 60, 150)[1] + 60 < pixel(target, 240, 150)[1]);
+    assert_true(pixel(target, 60, 150)[0] > pixel(target, 60, 150)[2] + 40);
+    assert_int_equal(render_add_beam(frame, a, a, 1.0, 1.0, none), RENDER_OK);
+    const double heights[] = { 1e-9, 1e-3, 1e6, 1e12 };
+    for (int i = 0; i < 4; i++) {
+        draw(target, frame, (render_camera){ .view_height = heights[i] }, flat());
+    }
+    assert_int_equal(render_add_beam(frame, a, b, -0.1, 0.0, none), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_beam(frame, a, b, 0.0, 1.1, none), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_beam(frame, a, b, (double)NAN, 1.0, none), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_beam(frame, (render_vec){ (double)NAN, 0 }, b, 1.0, 1.0, none),
+                     RENDER_E_NOT_FINITE);
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -397,6 +437,7 @@ int main(void)
         cmocka_unit_test(test_every_overlay_is_switchable),
         cmocka_unit_test(test_a_liquid_fills_its_area),
         cmocka_unit_test(test_smoke_is_a_veil),
+        cmocka_unit_test(test_beams_glow),
         cmocka_unit_test(test_joints_have_signs),
         cmocka_unit_test(test_field_is_arrows),
         cmocka_unit_test(test_surfaces_run),

@@ -141,16 +141,16 @@ static bool wants_names(const engine_stage *stage, unsigned show)
 }
 
 /// What is drawn apart of a body.
-typedef enum shape_role { ROLE_SOLID, ROLE_SENSOR, ROLE_FLUID } shape_role;
+typedef enum shape_role { ROLE_SOLID, ROLE_SENSOR, ROLE_FLUID, ROLE_GLASS } shape_role;
 
 /// Air is not to be seen.
 static shape_role role_of(const plumb_world *world, plumb_shape shape)
 {
     plumb_material_desc material = { 0 };
-    if (!plumb_shape_is_sensor(world, shape)) {
-        return ROLE_SOLID;
-    }
     plumb_material_get(world, plumb_shape_material(world, shape), &material);
+    if (!plumb_shape_is_sensor(world, shape)) {
+        return (double)material.refractive_index > 0 ? ROLE_GLASS : ROLE_SOLID;
+    }
     return material.fluid && !material.weightless ? ROLE_FLUID : ROLE_SENSOR;
 }
 
@@ -275,6 +275,10 @@ static bool add_body(engine_stage *stage, const scene_body *body, int index, boo
     bool is_static = type == PLUMB_STATIC;
     glow_by(world, body, &style);
     if (add_shapes(stage, count, ROLE_SOLID, where, is_static, &style, frame)) {
+        style.label = NULL;
+    }
+    style.kind = RENDER_GLASS;
+    if (add_shapes(stage, count, ROLE_GLASS, where, false, &style, frame)) {
         style.label = NULL;
     }
     style.kind = RENDER_SENSOR;
@@ -528,6 +532,7 @@ int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show
             good = good && pl_stage_add_softbodies(stage, frame);
         }
     }
+    good = good && pl_stage_add_light(stage, frame);
     if ((show & RENDER_SHOW_JOINTS) != 0) {
         pl_stage_add_joints(stage, frame);
     }

@@ -102,6 +102,8 @@ plumb_aabb pl_stage_softbody_box(const engine_stage *stage, plumb_softbody body)
 /// Water whose surface has waves; false: the shape has none.
 bool pl_stage_add_waves(const engine_stage *stage, plumb_shape shape, plumb_transform where,
                         struct render_frame *frame);
+/// Beams of the lamps of a scene. False when out of memory.
+bool pl_stage_add_light(const engine_stage *stage, struct render_frame *frame);
 /// Adds all soft bodies to a draw list. False when out of memory.
 bool pl_stage_add_softbodies(const engine_stage *stage, struct render_frame *frame);
 void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes, int count,

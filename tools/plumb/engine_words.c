@@ -37,6 +37,7 @@ static const word_run runs[] = {
     { "effects", NULL, &sc_list_air, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_source, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_waves, 1, PLUMB_TABLE_COUNT },
+    { "effects", NULL, &sc_list_light, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, sc_list_softbodies, SC_SOFTBODY_KINDS, PLUMB_TABLE_COUNT },
     { "effects", NULL, sc_list_laws, SC_LAW_KINDS, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_orbits, 1, PLUMB_TABLE_COUNT },

@@ -335,6 +335,18 @@ render_result render_add_field(render_frame *frame, double x, double y, double l
     return add_mark(frame, mark, NULL);
 }
 
+render_result render_add_beam(render_frame *frame, render_vec a, render_vec b, double bright_a,
+                              double bright_b, render_rgba color)
+{
+    if (!(bright_a >= 0.0 && bright_a <= 1.0 && bright_b >= 0.0 && bright_b <= 1.0)) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_mark mark = {
+        .kind = PLR_BEAM, .a = a, .b = b, .bright_a = bright_a, .bright_b = bright_b, .color = color
+    };
+    return add_mark(frame, mark, NULL);
+}
+
 render_result render_add_aabb(render_frame *frame, render_box box)
 {
     return add_pair(frame, PLR_AABB, box.min.x, box.min.y, box.max.x, box.max.y);

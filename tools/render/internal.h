@@ -68,6 +68,7 @@ typedef enum plr_mark_kind {
     PLR_FIELD,
     PLR_FLOW,
     PLR_SURFACE,
+    PLR_BEAM,
     PLR_TEXT,
     PLR_MARK_KINDS
 } plr_mark_kind;
@@ -79,10 +80,11 @@ typedef struct plr_mark {
                  ///< closed
     render_vec a;
     render_vec b;
+    double bright_a, bright_b; ///< of a beam
     double
         value; ///< depth of a contact; travel of a surface; spacing of a liquid; strength of a field, of a
                ///< flow; side of a cell of smoke
-    render_rgba color;  ///< liquid, smoke
+    render_rgba color;  ///< liquid, smoke, beam
     size_t first_point; ///< trail, surface
     size_t point_count; ///< trail, surface
     size_t text;        ///< offset into frame->text
@@ -283,6 +285,8 @@ void plr_group_destroy(plr_group *group);
 void plr_draw_liquids(plr_painter *painter);
 /// Smoke and heat, above these (smoke.c).
 void plr_draw_smoke(plr_painter *painter);
+/// Beams of light, above the bodies (beams.c).
+void plr_draw_beams(plr_painter *painter);
 /// Trails, which lie under the bodies; cells and boxes (overlay.c).
 void plr_draw_underlay(plr_painter *painter);
 /// Surfaces, boxes, contacts, arrows.

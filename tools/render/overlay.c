@@ -310,6 +310,7 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
                    plr_fade(flow_fast, 0.0), flow_fast);
         break;
     case PLR_LIQUID:
+    case PLR_BEAM:
     case PLR_SMOKE:
     case PLR_TEXT:
     case PLR_MARK_KINDS:

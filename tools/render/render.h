@@ -78,6 +78,7 @@ typedef enum render_class {
     RENDER_KINEMATIC,   ///< palette colour with light stripes
     RENDER_ASLEEP,      ///< palette colour, faded
     RENDER_SENSOR,      ///< transparent, dashed outline
+    RENDER_GLASS,       ///< translucent, with an outline; light goes through it
     RENDER_FLUID,       ///< translucent, over all that is in it; lines are its surface
     RENDER_CLASS_COUNT
 } render_class;
@@ -171,6 +172,9 @@ render_result render_add_smoke(render_frame *frame, render_vec low, double cell,
 /// A piece of a streamline, from where what flows was; coloured by `share`, 0 (slow) to 1, of a speed for the legend.
 render_result render_add_flow(render_frame *frame, const render_vec *points, size_t count,
                               double speed, double share);
+/// A beam of light from a to b, whose brightness, 0 to 1, goes from `bright_a` to `bright_b`. Of a colour; a == 0: red.
+render_result render_add_beam(render_frame *frame, render_vec a, render_vec b, double bright_a,
+                              double bright_b, render_rgba color);
 /// A trail, oldest point first (it fades towards that end), in palette colour `palette`.
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
                                int palette);

@@ -31,6 +31,8 @@ static const double stripe_lightness = 0.30;
 static const double asleep_fading = 0.62;
 static const double sensor_alpha = 0.16;
 static const double fluid_alpha = 0.36;
+static const double glass_alpha = 0.42;
+static const render_rgba glass = { 0x9f, 0xcb, 0xdd, 0xff };
 static const render_rgba water = { 0x4a, 0x9a, 0xd8, 0xff };
 
 render_rgba render_palette(int index)
@@ -82,6 +84,11 @@ plr_paint plr_body_paint(const plr_body *body, render_rgba background)
         paint.outline = plr_mix(opaque(hue), black, 0.5 * outline_darkness);
         paint.fill = plr_fade(hue, sensor_alpha);
         paint.dashed = true;
+        return paint;
+    case RENDER_GLASS:
+        paint.fill = body->color.a > 0 ? body->color : glass;
+        paint.outline = plr_mix(opaque(paint.fill), black, 0.6 * outline_darkness);
+        paint.fill = plr_fade(paint.fill, glass_alpha);
         return paint;
     case RENDER_FLUID:
         paint.fill = body->color.a > 0 ? body->color : water;

@@ -117,6 +117,7 @@ static void paint(plr_painter *painter)
     plr_for_images(painter, plr_draw_smoke);
     plr_for_images(painter, plr_draw_underlay);
     plr_for_images(painter, plr_draw_bodies);
+    plr_for_images(painter, plr_draw_beams);
     plr_for_images(painter, plr_draw_overlay);
     plr_for_images(painter, plr_draw_labels);
     plr_draw_period(painter);

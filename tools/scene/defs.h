@@ -248,6 +248,21 @@ typedef struct sc_waves {
     plumb_shape shape;
 } sc_waves;
 
+/// light{}
+typedef struct sc_light_def {
+    uint64_t present;
+    char name[SC_NAME_SIZE], body[SC_NAME_SIZE];
+    double at[2], angle, power, length, polarization, bounces, least, around;
+    double rays, width, spread;
+    sc_color color;
+    bool hidden, sensors;
+} sc_light_def;
+
+typedef struct sc_light {
+    sc_light_def def;
+    int number; ///< its object's
+} sc_light;
+
 /// air_source{}
 typedef struct sc_source_def {
     uint64_t present;

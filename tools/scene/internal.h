@@ -252,6 +252,8 @@ struct scene {
     int air_line;
     SC_ARRAY(sc_source) sources;
     SC_ARRAY(sc_waves) waves;
+    SC_ARRAY(sc_light) lights;
+    int light_number;  ///< of the last that was made
     int source_number; ///< of the last that was made
     SC_ARRAY(sc_softbody) softbodies;
     SC_ARRAY(sc_law) laws;
@@ -321,7 +323,8 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
     sc_list_exact, sc_list_contact, sc_list_field, sc_list_hit, sc_list_break, sc_list_pair,
     sc_list_filter, sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character,
-    sc_list_liquid, sc_list_phase, sc_list_air, sc_list_source, sc_list_orbits, sc_list_waves;
+    sc_list_liquid, sc_list_phase, sc_list_air, sc_list_source, sc_list_orbits, sc_list_waves,
+    sc_list_light;
 extern const sc_list sc_list_laws[SC_LAW_KINDS];
 extern const sc_list sc_list_softbodies[SC_SOFTBODY_KINDS];
 extern const sc_list sc_list_queries[SC_QUERIES];
@@ -403,6 +406,7 @@ void sc_open_softbody(lua_State *L);   ///< rope, cloth, jelly, balloon, softbod
 void sc_open_air(lua_State *L);        ///< air, air_source, air_fill, air_at, air_sum
 void sc_open_waves(lua_State *L);      ///< waves, wave_at
 void sc_open_heat(lua_State *L);       ///< heat
+void sc_open_light(lua_State *L);      ///< light, light_on, light_path
 void sc_open_characters(lua_State *L); ///< character
 void sc_open_queries(lua_State *L);    ///< ray, cast, nearest, inside
 void sc_open_joints(lua_State *L);     ///< revolute, wheel, ..., exclude, world
@@ -436,6 +440,7 @@ void sc_build_orbits(scene *s, const sc_site *site, int table);
 void sc_build_liquid(scene *s, const sc_site *site, int table);
 void sc_build_air(scene *s, const sc_site *site, int table);
 void sc_build_waves(scene *s, const sc_site *site, int table);
+void sc_build_light(scene *s, const sc_site *site, int table); ///< pushes it
 void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind,
                        int table);                              ///< pushes it
 void sc_build_source(scene *s, const sc_site *site, int table); ///< pushes it

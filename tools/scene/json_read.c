@@ -169,10 +169,10 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "air",    "bodies", "camera", "excluded",   "expect",
-                                         "format", "joints", "laws",   "liquid",     "materials",
-                                         "orbits", "pairs",  "scene",  "softbodies", "sources",
-                                         "time",   "waves" };
+    static const char *const names[] = { "air",       "bodies", "camera", "excluded", "expect",
+                                         "format",    "joints", "laws",   "lights",   "liquid",
+                                         "materials", "orbits", "pairs",  "scene",    "softbodies",
+                                         "sources",   "time",   "waves" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -427,6 +427,12 @@ void sc_json_load(scene *s)
     for (const cJSON *item = elements(s, root, "waves"); item != NULL; item = item->next, i++) {
         snprintf(path, sizeof path, "waves[%d]", i);
         make(s, item, "waves", path, sc_build_waves);
+        lua_settop(L, 1);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "lights"); item != NULL; item = item->next, i++) {
+        snprintf(path, sizeof path, "lights[%d]", i);
+        make(s, item, "light", path, sc_build_light);
         lua_settop(L, 1);
     }
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(root, "camera");

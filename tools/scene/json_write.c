@@ -258,6 +258,21 @@ static void write_laws(sc_json_writer *w)
     fputs(any ? "\n],\n" : "", w->file);
 }
 
+static void write_lights(sc_json_writer *w)
+{
+    const scene *s = w->s;
+    bool any = false;
+    for (int i = 0; i < s->lights.count; i++) {
+        const sc_light_def *d = &s->lights.items[i].def;
+        if (d->body[0] == 0 || sc_body_named(s, d->body) != NULL) {
+            fputs(any ? ",\n" : "\"lights\":[\n", w->file);
+            sc_json_object(w, &sc_list_light, d, NULL, &sc_json_as_said);
+            any = true;
+        }
+    }
+    fputs(any ? "\n],\n" : "", w->file);
+}
+
 // As they are now: mode by mode.
 static void write_waves(sc_json_writer *w)
 {
@@ -297,6 +312,7 @@ bool scene_to_json(const scene *s, FILE *file)
     fputs("\"format\":\"plumb-scene-1\",\n", file);
     write_joints(&w);
     write_laws(&w);
+    write_lights(&w);
     write_liquid(&w);
     write_materials(&w);
     if (s->orbits.present != 0) {

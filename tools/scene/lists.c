@@ -290,6 +290,28 @@ static const sc_field waves_rows[] = {
 const sc_list sc_list_waves = { "waves", waves_rows, COUNT(waves_rows) };
 #undef T
 
+#define T sc_light_def
+static const sc_field light_rows[] = {
+    { "angle",        SC_NUMBER,  AT(T, angle),        -BIG, BIG, "rad", 0, 0 },
+    { "around",       SC_NUMBER,  AT(T, around),       0, 10, "1", 0, 0 },
+    { "at",           SC_VEC2,    AT(T, at),           -FAR, FAR, "m", 0, 0 },
+    { "body",         SC_BODY,    AT(T, body),         0, 0, NULL, 0, 0 },
+    { "bounces",      SC_INTEGER, AT(T, bounces),      1, PLUMB_LIGHT_MAX_BOUNCES, "1", 0, 0 },
+    { "color",        SC_COLOR,   AT(T, color),        0, 0, NULL, 0, 0 },
+    { "hidden",       SC_BOOL,    AT(T, hidden),       0, 0, NULL, 0, 0 },
+    { "least",        SC_NUMBER,  AT(T, least),        0, BIG, "W", 0, SC_ABOVE },
+    { "length",       SC_NUMBER,  AT(T, length),       0, BIG, "m", 0, SC_ABOVE },
+    { "name",         SC_STRING,  AT(T, name),         0, 0, NULL, 0, 0 },
+    { "polarization", SC_NUMBER,  AT(T, polarization), -1, 1, "1", 0, 0 },
+    { "power",        SC_NUMBER,  AT(T, power),        0, BIG, "W", 0, SC_ABOVE },
+    { "rays",         SC_INTEGER, AT(T, rays),         1, 64, "1", 0, 0 },
+    { "sensors",      SC_BOOL,    AT(T, sensors),      0, 0, NULL, 0, 0 },
+    { "spread",       SC_NUMBER,  AT(T, spread),       0, 6.2831853, "rad", 0, 0 },
+    { "width",        SC_NUMBER,  AT(T, width),        0, SIZE, "m", 0, 0 },
+};
+const sc_list sc_list_light = { "light", light_rows, COUNT(light_rows) };
+#undef T
+
 #define T sc_source_def
 static const sc_field source_rows[] = {
     { "at",     SC_VEC2,   AT(T, at),     -1e6, 1e6, "m", 0, 0 },

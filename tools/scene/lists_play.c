@@ -66,7 +66,8 @@ const sc_list *sc_list_at(int i)
                                              &sc_list_camera,   &sc_list_pair,   &sc_list_character,
                                              &sc_list_motor,    &sc_list_spring, &sc_list_expect,
                                              &sc_list_blast,    &sc_list_liquid, &sc_list_phase,
-                                             &sc_list_air,      &sc_list_source, &sc_list_waves };
+                                             &sc_list_air,      &sc_list_source, &sc_list_waves,
+                                             &sc_list_light };
     const int count = (int)(sizeof single / sizeof *single),
               all = count + SC_JOINT_KINDS + SC_SHAPE_KINDS;
     return i < count                    ? single[i]

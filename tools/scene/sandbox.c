@@ -224,6 +224,7 @@ static int open_protected(lua_State *L)
     sc_open_air(L);
     sc_open_waves(L);
     sc_open_heat(L);
+    sc_open_light(L);
     sc_open_softbody(L);
     sc_open_laws(L);
     sc_open_characters(L);

@@ -224,7 +224,8 @@ void scene_destroy(scene *s)
         s->groups.items,   s->pairs.items,      s->excluded.items, s->hits.items,
         s->enters.items,   s->leaves.items,     s->breaks.items,   s->strains.items,
         s->strained.items, s->laws.items,       s->unheard.items,  s->shatters.items,
-        s->sources.items,  s->softbodies.items, s->waves.items,    s->gone.items
+        s->sources.items,  s->softbodies.items, s->waves.items,    s->gone.items,
+        s->lights.items
     };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
         free(blocks[i]);

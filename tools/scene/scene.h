@@ -221,6 +221,20 @@ typedef struct scene_air {
 } scene_air;
 scene_air scene_get_air(const scene *s);
 
+/// A lamp of light{}, and how it wants its beams drawn: likewise. Lamps change when handlers make or remove some.
+typedef struct scene_light {
+    const char *name; ///< "" if none
+    int palette;
+    scene_rgba color;
+    double power; ///< [W] of all rays
+    int rays;     ///< 0: nothing of it is to be seen
+} scene_light;
+int scene_light_count(const scene *s);
+scene_light scene_light_get(const scene *s, int i);
+/// Follows ray 0, 1, ... of a lamp through the world as it is now: plumb_world_light.
+int scene_light_trace(const scene *s, int i, int ray, plumb_light_segment *segments, int capacity,
+                      plumb_light_sum *sum);
+
 /// The counters and the text of the scene in one line, e.g. "left 3   right 2   second half"; "" if
 /// none.
 const char *scene_get_text(const scene *s);

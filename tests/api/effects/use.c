@@ -107,6 +107,9 @@ static void refusals(void)
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
     refused(w, "air", plumb_air_create(w, &(plumb_air_desc){ .half = { 1, 1 } }) == PLUMB_OK);
     refused(w, "softbodies", MADE(plumb_rope_create, (plumb_rope_desc){ .to = { 1, 0 } }));
+    refused(w, "light", MADE(plumb_material_create, (plumb_material_desc){ .refractive_index = 1 }));
+    refused(w, "light", MADE(plumb_material_create, (plumb_material_desc){ .reflectance = 1 }));
+    refused(w, "light", plumb_world_light(w, &(plumb_light_desc){ .direction = { 1, 0 } }, NULL, NULL, 0, NULL) >= 0);
     refused(w, "characters", plumb_character_create(w, body, NULL) == PLUMB_OK);
     refused(w, "joints",
             MADE(plumb_joint_create,
