@@ -11,6 +11,8 @@
 /// A world has one liquid or none. It falls by the world's gravity, is kept out by every solid shape (sensors let it
 /// through, filters do not count), and floats, pushes and is pushed by dynamic bodies: their velocities are unknowns of
 /// its one system of pressures, so that a body of a thousandth of its density is as stable as a heavy one.
+/// So are the nodes of soft bodies near it: triangles and rings with gas keep it out and are pressed together by it, threads let it
+/// through. What of a soft body is far lighter than the layer of cells beside it takes a quarter of that along when its speed changes.
 /// Shapes without area, and those thinner than a cell (two spacings), hold it back as walls do.
 /// Particles on their own, fewer than 24 in tiles of 16 x 16 cells with no body near, fly as points.
 ///

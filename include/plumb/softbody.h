@@ -10,8 +10,9 @@
 /// nodes and all bodies that they pull or touch are one implicit system in double, whatever their masses. Smooth
 /// motion is of second order in the substep; what is too stiff for the substep is held, and its vibration dies out.
 /// Nodes are circles that touch the solid shapes of bodies, with friction and without restitution; fast ones do not
-/// pass through. They fall by the world's gravity; laws, fluids and liquids do not act on them. Soft bodies do not touch one
-/// another, nor themselves. They do not sleep, nor do bodies that they pull or touch.
+/// pass through. They fall by the world's gravity; laws and the lift of fluids do not act on them. A liquid carries and presses
+/// what has an area, triangles and rings with gas, whatever its mass and stiffness, and passes threads (plumb/liquid.h). Soft
+/// bodies do not touch one another, nor themselves. They do not sleep, nor do bodies that they pull or touch.
 /// The world must not wrap around. Nothing of it is done in a world without soft bodies.
 #ifndef PLUMB_SOFTBODY_H
 #define PLUMB_SOFTBODY_H

@@ -21,6 +21,7 @@ static void put_wall(pl_liquid_grid *g, uint32_t body, double x0, double y0, dou
     s->piece = PL_LIQUID_NONE;
     s->body = body;
     s->count = 4;
+    s->exits = UINT32_MAX;
     s->x[0] = s->x[3] = s->low_x = x0;
     s->x[1] = s->x[2] = s->high_x = x1;
     s->y[0] = s->y[1] = s->low_y = y0;

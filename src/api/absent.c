@@ -238,6 +238,11 @@ FREE(pl_softbodies_free, pl_softbodies)
 GIVES(double, pl_soft_elastic, 0, const plumb_world *world, uint32_t row, pl_softbody_place at)
 GIVES(double, pl_soft_area, 0, const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
 GIVES(double, pl_soft_pressure, 0, const pl_softbody *item, double area)
+GIVES(bool, pl_soft_foresee, true, plumb_world *world, plumb_real dt)
+VOID(pl_soft_answer, const pl_soft_step *s)
+VOID(pl_soft_push, const pl_soft_step *s, uint32_t point, double x, double y)
+GIVES(pl_soft_shove *, pl_soft_make_pushes, NULL, plumb_world *world)
+WORLD(pl_soft_drop_pushes)
 #endif
 
 #if !PL_HAS(LIGHT)

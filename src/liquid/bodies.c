@@ -78,6 +78,7 @@ static bool add_solid(plumb_world *world, pl_liquid_scratch *scratch, uint32_t p
     s->count = shape.count;
     s->radius = (double)shape.radius * scale;
     s->thin = width_of(&shape, scale) < 1;
+    s->exits = UINT32_MAX;
     return true;
 }
 
@@ -221,9 +222,12 @@ void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, doub
         b->x += b->vx * dt;
         b->y += b->vy * dt;
     }
+    pl_liquid_place_nodes(g, dt);
     for (uint32_t i = 0; i < g->solid_count; ++i) {
         if (g->solids[i].piece != PL_LIQUID_NONE) {
             place_solid(world, g, &g->solids[i]);
+        } else if (g->solids[i].soft) {
+            pl_liquid_place_triangle(g, &g->solids[i]);
         }
     }
     if (dt == 0 && g->films) { // as the step begins: pieces keep where they lie in a body

@@ -7,14 +7,9 @@
 // Reads: links, pressures. Writes: bodies of the grid, speeds of what closes faces. Cost: O(bodies + links).
 #include "liquid/liquid.h"
 
-typedef struct ends {
-    uint32_t before, behind; // rows on both sides of a face; that of air: 0
-} ends;
-
-static ends ends_of(const pl_liquid_grid *g, const pl_liquid_link *link)
+static pl_liquid_ends ends_of(const pl_liquid_grid *g, const pl_liquid_link *link)
 {
-    const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-    return (ends){ g->row[other], g->row[link->cell] };
+    return pl_liquid_ends_of(g, link->cell, link->upright);
 }
 
 // What pressures P do to the sums of bodies: force over density h^2.
@@ -25,7 +20,7 @@ static void sum_links(pl_liquid_grid *g, const near_real *p)
     }
     for (uint32_t i = 0; i < g->link_count; ++i) {
         const pl_liquid_link *link = &g->links[i];
-        const ends at = ends_of(g, link);
+        const pl_liquid_ends at = ends_of(g, link);
         const double push = (double)(link->part * (p[at.before] - p[at.behind]));
         double *sum = g->bodies[link->body].sum;
         sum[link->upright ? 1 : 0] += push;
@@ -41,9 +36,9 @@ static near_real speed_of(const pl_liquid_link *link, const double motion[3])
 
 double pl_liquid_add_links(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
 {
-    double bend = 0;
+    double bend = push == 0 ? 0 : pl_liquid_add_soft_links(g, p, out, push);
     if (push == 0 || g->link_count == 0) {
-        return 0;
+        return bend;
     }
     sum_links(g, p);
     for (uint32_t i = 0; i < g->body_count; ++i) {
@@ -59,7 +54,7 @@ double pl_liquid_add_links(pl_liquid_grid *g, const near_real *p, near_real *out
                                    push * b->inv_mass_y * b->sum[1],
                                    push * b->inv_inertia * b->sum[2] };
         const near_real flow = link->part * speed_of(link, motion);
-        const ends at = ends_of(g, link);
+        const pl_liquid_ends at = ends_of(g, link);
         out[at.before] += flow;
         out[at.behind] -= flow;
     }
@@ -86,13 +81,14 @@ void pl_liquid_push_bodies(pl_liquid_grid *g, double push)
         const double *sum = g->bodies[i].sum;
         push_body(&g->bodies[i], push * sum[0], push * sum[1], push * sum[2]);
     }
+    pl_liquid_push_nodes(g, push);
 }
 
 void pl_liquid_bear_rests(pl_liquid_grid *g, double push, double fall_x, double fall_y)
 {
     for (uint32_t i = 0; i < g->link_count; ++i) {
         const pl_liquid_link *link = &g->links[i];
-        const ends at = ends_of(g, link);
+        const pl_liquid_ends at = ends_of(g, link);
         if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
             const double light = (double)(link->upright ? pl_liquid_light_v(g, link->cell)
                                                         : pl_liquid_light_u(g, link->cell));
@@ -102,6 +98,7 @@ void pl_liquid_bear_rests(pl_liquid_grid *g, double push, double fall_x, double 
                       lift * (double)link->arm);
         }
     }
+    pl_liquid_bear_nodes(g, push, fall_x, fall_y);
     pl_liquid_follow_bodies(g);
 }
 
@@ -111,11 +108,11 @@ void pl_liquid_follow_bodies(pl_liquid_grid *g)
         const pl_liquid_link *link = &g->links[i];
         const pl_liquid_body *b = &g->bodies[link->body];
         const double change[3] = { b->vx - b->seen[0], b->vy - b->seen[1], b->w - b->seen[2] };
-        const double more = (double)speed_of(link, change);
-        near_real *speed = link->upright ? &g->solid_v[link->cell] : &g->solid_u[link->cell];
-        *speed += link->part * (near_real)pl_liquid_held(more, PL_LIQUID_SPEED);
+        pl_liquid_add_speed(g, link->cell, link->upright, link->part,
+                            (double)speed_of(link, change));
     }
     pl_liquid_see_bodies(g);
+    pl_liquid_follow_nodes(g);
 }
 
 void pl_liquid_see_bodies(pl_liquid_grid *g)

@@ -151,6 +151,26 @@ near_real pl_liquid_gap(const pl_liquid_grid *grid, uint32_t a, uint32_t b);
 
 //---- links.c -------------------------------------------------------------------------------------
 
+// Rows on both sides of a cell's lower face (upright) or left one; that of air is 0.
+typedef struct pl_liquid_ends {
+    uint32_t before, behind;
+} pl_liquid_ends;
+
+static inline pl_liquid_ends pl_liquid_ends_of(const pl_liquid_grid *grid, uint32_t cell,
+                                               bool upright)
+{
+    const uint32_t other = upright ? grid->down[cell] : grid->left[cell];
+    return (pl_liquid_ends){ grid->row[other], grid->row[cell] };
+}
+
+// What adds to the speed of what closes a face.
+static inline void pl_liquid_add_speed(pl_liquid_grid *grid, uint32_t cell, bool upright,
+                                       near_real part, double speed)
+{
+    near_real *to = upright ? &grid->solid_v[cell] : &grid->solid_u[cell];
+    *to += part * (near_real)pl_liquid_held(speed, PL_LIQUID_SPEED);
+}
+
 // Adds what bodies make of pressures p to out, a product with the matrix; the answer is what this adds to p . A p. `push`: [kg] density times
 // the square of a cell's side.
 double pl_liquid_add_links(pl_liquid_grid *grid, const near_real *p, near_real *out, double push);
@@ -242,6 +262,33 @@ void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, doub
 // Impulses of the step become forces on bodies, and back. Room was made by pl_liquid_find_solids.
 void pl_liquid_push_rows(plumb_world *world, pl_liquid_scratch *scratch, real dt);
 void pl_liquid_unpush_rows(plumb_world *world, pl_liquid_scratch *scratch);
+
+//---- soft.c --------------------------------------------------------------------------------------
+
+// Soft bodies near a region that have an area, as solids, a triangle each, behind what there is. False when out of memory.
+bool pl_liquid_find_soft(plumb_world *world, pl_liquid_scratch *scratch, pl_liquid_region region,
+                         real dt);
+// What the step does to them anyway, and how they answer. False when out of memory.
+bool pl_liquid_foresee_soft(plumb_world *world, pl_liquid_grid *grid, real dt);
+// [m/s], [rad/s] of one as a whole, as the liquid has it or as it is by now.
+void pl_liquid_soft_motion(const pl_liquid_grid *grid, const pl_liquid_softbody *body, bool by_now,
+                           double out[3]);
+// Adds a part of what the step does to them anyway.
+void pl_liquid_pull_nodes(pl_liquid_grid *grid, double part);
+void pl_liquid_place_nodes(pl_liquid_grid *grid, double dt);
+void pl_liquid_place_triangle(const pl_liquid_grid *grid, pl_liquid_solid *solid);
+// A link closes its part of a face by a triangle, with its middle at (x, y) [cells]: nodes and shares of it are told.
+void pl_liquid_close_softly(pl_liquid_grid *grid, const pl_liquid_solid *solid,
+                            pl_liquid_soft_link *link, double x, double y);
+// As their namesakes for bodies.
+double pl_liquid_add_soft_links(pl_liquid_grid *grid, const near_real *p, near_real *out,
+                                double push);
+void pl_liquid_push_nodes(pl_liquid_grid *grid, double push);
+void pl_liquid_bear_nodes(pl_liquid_grid *grid, double push, double fall_x, double fall_y);
+void pl_liquid_follow_nodes(pl_liquid_grid *grid);
+void pl_liquid_see_nodes(pl_liquid_grid *grid);
+// Impulses of the step become forces on nodes.
+void pl_liquid_push_soft(plumb_world *world, const pl_liquid_grid *grid, double dt);
 
 //---- support.c -----------------------------------------------------------------------------------
 

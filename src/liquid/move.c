@@ -57,6 +57,7 @@ static gap gap_to_segment(const pl_liquid_solid *s, int i, int k, place at)
 static gap gap_to(const pl_liquid_solid *s, place at)
 {
     gap inside = { -INFINITY, 0, 1 }, outside = { INFINITY, 0, 1 };
+    bool is_in = s->count > 2;
     for (int i = 0; i < s->count; ++i) {
         const int k = i + 1 < s->count ? i + 1 : 0;
         const double dx = s->x[k] - s->x[i], dy = s->y[k] - s->y[i];
@@ -66,10 +67,11 @@ static gap gap_to(const pl_liquid_solid *s, place at)
         if (length > 0) {
             const double nx = dy / length, ny = -dx / length;
             const double d = (at.x - s->x[i]) * nx + (at.y - s->y[i]) * ny;
-            inside = d > inside.distance ? (gap){ d, nx, ny } : inside;
+            is_in &= d < 0;
+            inside = d > inside.distance && (s->exits >> i & 1) != 0 ? (gap){ d, nx, ny } : inside;
         }
     }
-    gap out = s->count > 2 && inside.distance < 0 ? inside : outside;
+    gap out = is_in ? inside : outside;
     out.distance -= s->radius;
     return out;
 }

@@ -319,7 +319,7 @@ static void inflow_range(void *context, uint32_t first, uint32_t count)
                 g->vectors[PL_LIQUID_R][g->row[c]] =
                     g->open_u[c] * g->u[c] + g->solid_u[c] - g->open_u[right] * g->u[right] -
                     g->solid_u[right] + g->open_v[c] * g->v[c] + g->solid_v[c] -
-                    g->open_v[up] * g->v[up] - g->solid_v[up];
+                    g->open_v[up] * g->v[up] - g->solid_v[up] + g->swell[c];
             }
         }
     }

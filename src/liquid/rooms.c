@@ -35,6 +35,13 @@ static void find_rooms(const pl_liquid_grid *g, uint32_t *leaders, bool bodies_m
             pl_union_join(leaders, other, g->cell_count + link->body);
         }
     }
+    for (uint32_t i = 0; bodies_move && i < g->soft_link_count; ++i) {
+        // What is soft yields to a room that it closes.
+        const pl_liquid_soft_link *link = &g->soft_links[i];
+        pl_union_join(leaders, g->row[link->cell] != 0 ? link->cell : 0, 0);
+        const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
+        pl_union_join(leaders, g->row[other] != 0 ? other : 0, 0);
+    }
 }
 
 typedef struct room {

@@ -12,6 +12,7 @@
 #include "liquid/liquid.h"
 
 #include "geometry/chord.h"
+#include "geometry/in_box.h"
 
 #include <math.h>
 
@@ -49,6 +50,18 @@ static bool add_link(pl_memory *memory, pl_liquid_scratch *scratch, pl_liquid_li
     return true;
 }
 
+static bool add_soft_link(pl_memory *memory, pl_liquid_scratch *scratch,
+                          const pl_liquid_soft_link *link)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(memory, &scratch->soft_links, (g->soft_link_count + 1) * sizeof *link)) {
+        return false;
+    }
+    g->soft_links = scratch->soft_links.data;
+    g->soft_links[g->soft_link_count++] = *link;
+    return true;
+}
+
 // A solid takes a part of a cell's lower face (upright) or left one, of what is left, and lets less or as much through. x, y: the middle of
 // it, from the tile's corner.
 static bool close_part(pl_memory *memory, pl_liquid_scratch *scratch, const view *v, uint32_t c,
@@ -56,10 +69,16 @@ static bool close_part(pl_memory *memory, pl_liquid_scratch *scratch, const view
 {
     pl_liquid_grid *g = &scratch->grid;
     near_real *open = upright ? &g->open_v[c] : &g->open_u[c];
-    near_real *speed = upright ? &g->solid_v[c] : &g->solid_u[c];
     const near_real wanted = (near_real)wanted_part, shut = (near_real)shut_part;
     const near_real part = wanted < *open ? wanted : *open;
     *open = *open - shut < (near_real)1e-3 ? 0 : *open - shut;
+    if (v->solid->soft && wanted > 0) {
+        pl_liquid_soft_link link = {
+            .cell = c, .upright = upright, .part = part, .rest = wanted - part
+        };
+        pl_liquid_close_softly(g, v->solid, &link, v->corner_x + x, v->corner_y + y);
+        return add_soft_link(memory, scratch, &link);
+    }
     if (v->body == NULL || !(wanted > 0)) {
         return true;
     }
@@ -67,7 +86,7 @@ static bool close_part(pl_memory *memory, pl_liquid_scratch *scratch, const view
     const double arm =
         upright ? (v->corner_x + x) * h - v->body->x : v->body->y - (v->corner_y + y) * h;
     const double moves = (upright ? v->body->vy : v->body->vx) + arm * v->body->w;
-    *speed += part * (near_real)pl_liquid_held(moves, PL_LIQUID_SPEED);
+    pl_liquid_add_speed(g, c, upright, part, moves);
     return !v->body->moves || add_link(memory, scratch,
                                        (pl_liquid_link){ c, v->solid->body, upright, part,
                                                          wanted - part, (near_real)arm });
@@ -202,6 +221,32 @@ static bool close_areas(pl_memory *memory, pl_liquid_scratch *scratch, const vie
     return true;
 }
 
+// A triangle of a soft body does the same, by exact areas: what they leave open between them would let the pressure in.
+static bool close_triangle(pl_memory *memory, pl_liquid_scratch *scratch, const view *v)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const pl_liquid_solid *s = v->solid;
+    const int first_x = first_at(s->low_x - v->corner_x - 0.5);
+    const int first_y = first_at(s->low_y - v->corner_y - 0.5);
+    for (int j = first_y; j < SIDE && v->corner_y + j - 0.5 < s->high_y; ++j) {
+        for (int i = first_x; i < SIDE && v->corner_x + i - 0.5 < s->high_x; ++i) {
+            const uint32_t c = cell_of(v, i, j);
+            const pl_in_box in = pl_triangle_in_box(v->x, v->y, i, j, i + 1, j + 1);
+            const pl_in_box left = pl_triangle_in_box(v->x, v->y, i - 0.5, j, i + 0.5, j + 1);
+            const pl_in_box low = pl_triangle_in_box(v->x, v->y, i, j - 0.5, i + 1, j + 0.5);
+            const near_real cover = g->cover[c] + (near_real)in.area;
+            g->cover[c] = cover > 1 ? 1 : cover;
+            if ((left.area > 0 &&
+                 !close_part(memory, scratch, v, c, false, left.area, left.area, left.x, left.y)) ||
+                (low.area > 0 &&
+                 !close_part(memory, scratch, v, c, true, low.area, low.area, low.x, low.y))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 // A piece as lines of a tile see it: as x = i, and upright as y = j, with its corners the other way round.
 static view view_of(const pl_liquid_grid *g, const pl_liquid_tile *tile, uint32_t t,
                     const pl_liquid_solid *s, bool upright, bool film)
@@ -232,6 +277,9 @@ static bool close_tile(pl_memory *memory, pl_liquid_scratch *scratch, const pl_l
 {
     pl_liquid_grid *g = &scratch->grid;
     const view v = view_of(g, tile, t, s, false, false), up = view_of(g, tile, t, s, true, false);
+    if (s->soft) {
+        return close_triangle(memory, scratch, &v);
+    }
     cover_cells(g, &v);
     if (s->thin &&
         (!close_crossed(memory, scratch, &v, &up) || !close_crossed(memory, scratch, &up, &v))) {
@@ -272,8 +320,9 @@ bool pl_liquid_close_faces(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
     uint32_t listed = 0;
-    g->link_count = 0;
+    g->link_count = g->soft_link_count = 0;
     pl_liquid_see_bodies(g);
+    pl_liquid_see_nodes(g);
     near_real *restrict u = g->open_u, *restrict v = g->open_v;
     for (uint32_t c = 0; c < g->cell_count; ++c) {
         u[c] = v[c] = 1;

@@ -8,6 +8,7 @@
 // Reads: particles, poses, velocities, masses, pieces. Writes: forces, particles. Cost: see DECISIONS.md.
 #include "liquid/liquid.h"
 #include "schema/passes.h"
+#include "softbody/softbody.h"
 
 #include <math.h>
 #include <string.h>
@@ -45,8 +46,8 @@ static near_real kick_of(real gravity, real dt)
     return (near_real)pl_liquid_held((double)gravity * (double)dt, PL_LIQUID_SPEED);
 }
 
-// One part of the step, of all particles in `moved`.
-static bool run_part(plumb_world *world, real dt)
+// Part i of a step, of all particles in `moved`.
+static bool run_part(plumb_world *world, real dt, int i, int parts)
 {
     pl_liquid_scratch *scratch = world->liquid.scratch;
     pl_liquid_grid *g = &scratch->grid;
@@ -63,9 +64,11 @@ static bool run_part(plumb_world *world, real dt)
         return false;
     }
     pl_liquid_to_grid(g);
-    if (!pl_liquid_plan(memory, scratch)) {
+    if (!pl_liquid_plan(memory, scratch) ||
+        (i == 0 && !pl_liquid_foresee_soft(world, g, dt * (real)parts))) {
         return false;
     }
+    pl_liquid_pull_nodes(g, 1.0 / parts);
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
     const double push = (double)d->density * h * h;
@@ -125,6 +128,7 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     scratch->grid.body_count = scratch->grid.solid_count = 0;
     if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
         !pl_liquid_find_solids(world, scratch, pl_liquid_region_of(liquid), dt) ||
+        !pl_liquid_find_soft(world, scratch, pl_liquid_region_of(liquid), dt) ||
         !pl_liquid_recall_supports(&world->memory, liquid)) {
         return PLUMB_E_MEMORY;
     }
@@ -136,11 +140,12 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     }
     const int parts = parts_of(world, h, (double)dt);
     for (int i = 0; i < parts; ++i) {
-        if (!run_part(world, dt / (real)parts)) {
+        if (!run_part(world, dt / (real)parts, i, parts)) {
             return PLUMB_E_MEMORY;
         }
     }
     pl_liquid_fly(&scratch->grid, world->gravity, (double)dt, scratch->moved.data, liquid->count);
+    pl_liquid_push_soft(world, &scratch->grid, (double)dt);
     pl_liquid_push_rows(world, scratch, dt);
     return PLUMB_OK;
 }
@@ -149,6 +154,7 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
 {
     pl_liquid *liquid = &world->liquid;
     pl_liquid_note_supports(world, dt);
+    pl_soft_drop_pushes(world);
     memcpy(liquid->particles.data, liquid->scratch->moved.data,
            liquid->count * sizeof(plumb_particle));
     liquid->scratch->push_count = 0;
@@ -158,4 +164,5 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
 void pl_liquid_undo(plumb_world *world)
 {
     pl_liquid_unpush_rows(world, world->liquid.scratch);
+    pl_soft_drop_pushes(world);
 }

@@ -15,9 +15,9 @@
 
 #define MOST 1e30 // [N] that float can still multiply by
 
-static uint64_t key_of(plumb_body body)
+static uint64_t key_of(plumb_entity entity)
 {
-    return pl_key(body.entity.index, body.entity.generation);
+    return pl_key(entity.index, entity.generation);
 }
 
 static double shorter(double a, double b)
@@ -36,28 +36,38 @@ static void find_common(const pl_liquid_support *s, double held[3])
     held[2] = shorter(a[2], b[2]);
 }
 
-static const pl_liquid_support *support_of(const pl_liquid *liquid, plumb_body body)
+static const pl_liquid_support *support_of(const pl_liquid *liquid, plumb_entity entity)
 {
     const pl_liquid_support *all = liquid->supports.data;
     bool found = false;
-    const uint32_t at = pl_find_key(all, liquid->support_count, sizeof *all, key_of(body), &found);
+    const uint32_t at =
+        pl_find_key(all, liquid->support_count, sizeof *all, key_of(entity), &found);
     return found ? &all[at] : NULL;
+}
+
+static void recall(const pl_liquid *liquid, plumb_entity entity, double held[3])
+{
+    const pl_liquid_support *s = liquid->support_count > 0 ? support_of(liquid, entity) : NULL;
+    if (s != NULL) {
+        find_common(s, held);
+    }
 }
 
 bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid)
 {
     pl_liquid_scratch *scratch = liquid->scratch;
     const pl_liquid_grid *g = &scratch->grid;
-    if (!pl_buffer_reserve(memory, &scratch->order, g->body_count * sizeof(pl_keyed)) ||
-        !pl_buffer_reserve(memory, &scratch->supports, g->body_count * sizeof(pl_liquid_support)) ||
-        !pl_buffer_reserve(memory, &liquid->supports, g->body_count * sizeof(pl_liquid_support))) {
+    const size_t count = (size_t)g->body_count + g->softbody_count;
+    if (!pl_buffer_reserve(memory, &scratch->order, count * sizeof(pl_keyed)) ||
+        !pl_buffer_reserve(memory, &scratch->supports, count * sizeof(pl_liquid_support)) ||
+        !pl_buffer_reserve(memory, &liquid->supports, count * sizeof(pl_liquid_support))) {
         return false;
     }
-    for (uint32_t i = 0; i < g->body_count && liquid->support_count > 0; ++i) {
-        const pl_liquid_support *s = support_of(liquid, g->bodies[i].body);
-        if (s != NULL) {
-            find_common(s, g->bodies[i].held);
-        }
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        recall(liquid, g->bodies[i].body.entity, g->bodies[i].held);
+    }
+    for (uint32_t i = 0; i < g->softbody_count; ++i) {
+        recall(liquid, g->softbodies[i].entity.entity, g->softbodies[i].held);
     }
     return true;
 }
@@ -68,17 +78,38 @@ static double force_of(double held, double more, double inverse, double dt)
     return inverse > 0 ? pl_liquid_held(held + more / (inverse * dt), MOST) : 0;
 }
 
-static pl_liquid_support note(const plumb_world *world, const pl_liquid_body *body, double dt)
+static pl_liquid_support note(const plumb_world *world, plumb_entity entity)
+{
+    const pl_liquid_support *old = support_of(&world->liquid, entity);
+    pl_liquid_support s = { .key = key_of(entity) };
+    if (old != NULL) {
+        memcpy(s.before, old->last, sizeof s.before);
+    }
+    return s;
+}
+
+static pl_liquid_support note_body(const plumb_world *world, const pl_liquid_body *body, double dt)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t row = pl_body_row(world, body->body);
-    const pl_liquid_support *old = support_of(&world->liquid, body->body);
-    pl_liquid_support s = { .key = key_of(body->body) };
+    pl_liquid_support s = note(world, body->body.entity);
     s.last[0] = force_of(body->held[0], (double)b->vx[row] - body->vx, body->inv_mass_x, dt);
     s.last[1] = force_of(body->held[1], (double)b->vy[row] - body->vy, body->inv_mass_y, dt);
     s.last[2] = force_of(body->held[2], (double)b->w[row] - body->w, body->inv_inertia, dt);
-    if (old != NULL) {
-        memcpy(s.before, old->last, sizeof s.before);
+    return s;
+}
+
+static pl_liquid_support note_softbody(const plumb_world *world, const pl_liquid_softbody *body,
+                                       double dt)
+{
+    const pl_liquid_grid *g = &world->liquid.scratch->grid;
+    const double turns = body->inertia > 0 ? 1 / body->inertia : 0;
+    pl_liquid_support s = note(world, body->entity.entity);
+    double found[3], now[3];
+    pl_liquid_soft_motion(g, body, false, found);
+    pl_liquid_soft_motion(g, body, true, now);
+    for (int k = 0; k < 3; ++k) {
+        s.last[k] = force_of(body->held[k], now[k] - found[k], k < 2 ? 1 / body->mass : turns, dt);
     }
     return s;
 }
@@ -93,10 +124,14 @@ void pl_liquid_note_supports(plumb_world *world, real dt)
     uint32_t count = 0;
     for (uint32_t i = 0; i < g->body_count; ++i) {
         if (g->bodies[i].moves) {
-            notes[count] = note(world, &g->bodies[i], (double)dt);
-            order[count] = (pl_keyed){ .key = notes[count].key, .value = count };
-            ++count;
+            notes[count++] = note_body(world, &g->bodies[i], (double)dt);
         }
+    }
+    for (uint32_t i = 0; i < g->softbody_count; ++i) {
+        notes[count++] = note_softbody(world, &g->softbodies[i], (double)dt);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        order[i] = (pl_keyed){ .key = notes[i].key, .value = i };
     }
     pl_sort_keyed(order, count);
     for (uint32_t i = 0; i < count; ++i) {

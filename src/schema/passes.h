@@ -179,14 +179,14 @@
       "targets, poses", "poses, velocities, targets", ONE)                                                                                   \
     X("edges",             FINISH,      IF(pl_want_edges),           ONCE(pl_run_edges),                                     ONCE,           \
       "poses", "poses", ONE)                                                                                                                 \
+    X("soft motion",       FINISH,      IF(pl_want_softbodies),      ONCE(pl_run_softbodies_motion),                         ONCE,           \
+      "poses", "soft bodies, islands", ONE)                                                                                                  \
     X("liquid motion",     FINISH,      IF(pl_want_liquid),          ONCE(pl_run_liquid_motion),                             ONCE,           \
       "velocities, masses", "liquid", ONE)                                                                                                                     \
     X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
       "", "air", ONE)                                                                                                                        \
     X("wave motion",         FINISH,      IF(pl_want_waves),            ONCE(pl_run_wave_motion),                                ONCE,              \
       "poses, pieces, materials", "waves", ONE)                                                                                                       \
-    X("soft motion",       FINISH,      IF(pl_want_softbodies),      ONCE(pl_run_softbodies_motion),                         ONCE,           \
-      "poses", "soft bodies, islands", ONE)                                                                                                  \
     X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \
       "joints, poses", "joints, rows, events, islands, components, pairs", ONE)                                                              \
     X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \

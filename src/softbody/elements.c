@@ -29,7 +29,7 @@
 #include <math.h>
 
 #define SOFTNESS 16.0 // of z^2: where s is one half
-#define LATE     0.75 // of u, in the rate that a damper sees
+#define LATE     PL_SOFT_LATE
 
 #define LEAD_MOST     0.5 // of s of edges
 #define LEAD_SOFTNESS 8.0
@@ -102,7 +102,9 @@ static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t
 {
     const uint32_t ia = first + e->a, ib = first + e->b;
     const pl_soft_point *a = pl_soft_point_at(s, ia), *b = pl_soft_point_at(s, ib);
-    const double k = (double)e->stiffness, rest = (double)e->length, c = (double)e->damping;
+    const double k = (double)e->stiffness, rest = (double)e->length;
+    const double follow = a->follow * k, c = (double)e->damping + follow;
+    const double of = c > 0 ? follow / c : 0;
     const double w = ease(a) + ease(b), z2 = h * h * k * w, zc = h * c * w;
     const double lead = LEAD_MOST * z2 / (z2 + LEAD_SOFTNESS), later = 0.25 + 0.75 * lead;
     const double share = 0.5 + 0.5 * zc / (zc + 4);
@@ -115,8 +117,8 @@ static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t
         return 0;
     }
     const double x = dx / length, y = dy / length;
-    const double rate = x * (b->vx - a->vx + share * (b->cx - a->cx)) +
-                        y * (b->vy - a->vy + share * (b->cy - a->cy));
+    const double rate = x * (b->vx - a->vx + share * (b->cx - a->cx) - of * (b->way_x - a->way_x)) +
+                        y * (b->vy - a->vy + share * (b->cy - a->cy) - of * (b->way_y - a->way_y));
     const asked way = { stretch, rate, tb, share };
     const bool pulls = (e->flags & PLUMB_EDGE_PULLS) != 0;
     const answer f = pulls ? thread(k, c, &way) : spring_and_damper(k, c, &way);
@@ -176,7 +178,9 @@ static double bend(const pl_soft_step *s, const plumb_softbody_bend *e, uint32_t
     const double k = (double)e->stiffness / (double)e->length, l = (double)e->length;
     const double w = ease(pl_soft_point_at(s, i[0])) + 4 * ease(pl_soft_point_at(s, i[1])) +
                      ease(pl_soft_point_at(s, i[2]));
-    const double c = k * calm(h * h * k * w / (l * l), h), slope = h * k / 4 + LATE * c;
+    const double follow = pl_soft_point_at(s, i[1])->follow * k;
+    const double c = k * calm(h * h * k * w / (l * l), h) + follow, slope = h * k / 4 + LATE * c;
+    const double of = c > 0 ? follow / c : 0;
     double p[3][2], g[6], rate = 0;
     for (int n = 0; n < 3; ++n) {
         place(pl_soft_point_at(s, i[n]), h, p[n]);
@@ -186,7 +190,8 @@ static double bend(const pl_soft_step *s, const plumb_softbody_bend *e, uint32_t
     }
     for (int n = 0; n < 3; ++n) {
         const pl_soft_point *q = pl_soft_point_at(s, i[n]);
-        rate += g[2 * n] * (q->vx + LATE * q->cx) + g[2 * n + 1] * (q->vy + LATE * q->cy);
+        rate += g[2 * n] * (q->vx + LATE * q->cx - of * q->way_x) +
+                g[2 * n + 1] * (q->vy + LATE * q->cy - of * q->way_y);
     }
     const double turn = wrapped(turn_of(p[0], p[1], p[2]) - (double)e->angle);
     const double moment = k * turn + c * rate;
@@ -257,7 +262,10 @@ static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, u
     for (int n = 0; n < 3; ++n) {
         w += ease(pl_soft_point_at(s, i[n])) * (t.g[n][0] * t.g[n][0] + t.g[n][1] * t.g[n][1]);
     }
-    const double time = (double)e->damping + calm(h * h * (t.lambda + t.mu) * t.area * w, h);
+    const double follow = pl_soft_point_at(s, i[0])->follow;
+    const double time =
+        (double)e->damping + calm(h * h * (t.lambda + t.mu) * t.area * w, h) + follow;
+    const double of = time > 0 ? follow / time : 0;
     double p[3][2], f[4], slope[3][2];
     for (int n = 0; n < 3; ++n) {
         place(pl_soft_point_at(s, i[n]), h, p[n]);
@@ -275,7 +283,8 @@ static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, u
         const pl_soft_point *q = pl_soft_point_at(s, i[n]);
         for (int k = 0; k < 2; ++k) {
             const double f1 = f[2 * k], f2 = f[2 * k + 1];
-            const double v = k == 0 ? q->vx + LATE * q->cx : q->vy + LATE * q->cy;
+            const double v = k == 0 ? q->vx + LATE * q->cx - of * q->way_x
+                                    : q->vy + LATE * q->cy - of * q->way_y;
             sees[0][n][k] = f1 * t.g[n][0], sees[1][n][k] = f2 * t.g[n][1];
             sees[2][n][k] = f1 * t.g[n][1] + f2 * t.g[n][0];
             for (int c = 0; c < 3; ++c) {
@@ -374,7 +383,9 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
     }
     const double least = (double)item->area * 1e-3, held = area > least ? area : least;
     const double pressure = pl_soft_pressure(item, area);
-    const double stiff = (pressure + (double)item->ambient) / held, c = stiff * h / 2;
+    const double stiff = (pressure + (double)item->ambient) / held;
+    const double follow = pl_soft_point_at(s, first + ring[0])->follow;
+    const double c = stiff * (h / 2 + follow), of = follow / (h / 2 + follow);
     if (fills) {
         mx->diagonal[9 * (size_t)block] = stiff > 0 ? -1 / (h * (h * stiff / 4 + LATE * c)) : -1;
     }
@@ -382,7 +393,8 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
         const pl_soft_point *node = pl_soft_point_at(s, first + ring[i]);
         double g[2];
         slope_of_area(s, first, ring, n, i, h, g);
-        rate += g[0] * (node->vx + LATE * node->cx) + g[1] * (node->vy + LATE * node->cy);
+        rate += g[0] * (node->vx + LATE * node->cx - of * node->way_x) +
+                g[1] * (node->vy + LATE * node->cy - of * node->way_y);
     }
     for (uint32_t i = 0; i < n && fills; ++i) {
         const uint32_t at = first + ring[i];

@@ -145,7 +145,7 @@ static double evaluate(plumb_world *world, double h, bool fills)
     if (fills) {
         pl_soft_clear(&s->matrix);
     }
-    const double masses = add_masses(world, h, fills);
+    const double masses = add_masses(world, h, fills) + pl_soft_add_pushes(s, h, fills);
     return masses + pl_soft_elements(world, h, fills) + pl_soft_press(s, h, fills);
 }
 
@@ -255,6 +255,7 @@ void pl_soft_newton(plumb_world *world, double h)
     pl_soft_step *s = world->softbodies.step;
     see_bodies(world, h * s->done);
     pl_soft_feel_winds(world, h * (s->done + 0.5));
+    pl_soft_turn_pushes(world, h);
     guess(world, h);
     pl_soft_change(s); // where they are on their way to
     pl_soft_find_contacts(world, h);

@@ -4,7 +4,8 @@
 
 #include "world/state.h"
 
-#define PL_SOFT_SPEED 1e6 // [m/s] of nodes at most
+#define PL_SOFT_SPEED 1e6  // [m/s] of nodes at most
+#define PL_SOFT_LATE  0.75 // of u, in the rate that a damper sees
 
 void pl_softbodies_free(pl_memory *memory, pl_softbodies *softbodies);
 // Of an image: numbers in their ranges, nodes that there are. Bodies of pins are asked for elsewhere.
@@ -26,12 +27,33 @@ static inline void pl_soft_node_place(const plumb_softbody_node *n, double out[2
 
 //---- step.c --------------------------------------------------------------------------------------
 
+// Its scratch, if there is none. False when out of memory.
+bool pl_soft_make_step(plumb_world *world);
 // Before the graph: nodes and what is near them. False when out of memory.
 bool pl_softbodies_find(plumb_world *world, plumb_real dt);
 // Marks bodies that are solved with soft ones: they are of one cluster. True if there are any.
 bool pl_softbodies_couple(const plumb_world *world, uint8_t *called);
 // Behind the graph: their slots, the structure of the system. False when out of memory.
 bool pl_softbodies_plan(plumb_world *world);
+
+//---- foresee.c -----------------------------------------------------------------------------------
+
+// What soft bodies do in a step if nothing pushes them but what there is by now, and bodies go on as they do: points are
+// then as they end it. False when out of memory.
+bool pl_soft_foresee(plumb_world *world, plumb_real dt);
+// Behind it: the right side of the matrix, impulses [N s], becomes what these add to velocities.
+void pl_soft_answer(const pl_soft_step *s);
+
+//---- pushes.c ------------------------------------------------------------------------------------
+
+// Room for what pushes nodes in this step, all 0. Null when out of memory.
+pl_soft_shove *pl_soft_make_pushes(plumb_world *world);
+// None of them do, as the step is refused.
+void pl_soft_drop_pushes(plumb_world *world);
+// They go with the soft bodies as these turn: a substep begins.
+void pl_soft_turn_pushes(plumb_world *world, double h);
+// As pl_soft_elements.
+double pl_soft_add_pushes(const pl_soft_step *s, double h, bool fills);
 
 //---- newton.c ------------------------------------------------------------------------------------
 

@@ -36,7 +36,7 @@ void pl_softbodies_free(pl_memory *memory, pl_softbodies *s)
         pl_soft_step *t = s->step;
         pl_buffer *scratch[] = { &t->points, &t->bodies, &t->obstacles, &t->near_,   &t->contacts,
                                  &t->keys,   &t->order,  &t->index,     &t->numbers, &t->shapes,
-                                 &t->rows,   &t->pulls,  &t->winds };
+                                 &t->rows,   &t->pulls,  &t->winds,     &t->pushes };
         for (size_t i = 0; i < sizeof scratch / sizeof scratch[0]; ++i) {
             pl_buffer copy = *scratch[i];
             pl_buffer_free(memory, &copy);
@@ -57,12 +57,20 @@ static pl_soft_body *bodies_of(const pl_soft_step *s)
 
 //---- gathered ------------------------------------------------------------------------------------
 
+static double mass_of(const pl_softbodies *all, const pl_softbody *item, uint32_t first)
+{
+    double sum = 0;
+    for (uint32_t i = first; i < first + item->nodes; ++i) {
+        sum += (double)pl_softbody_nodes(all)[i].mass;
+    }
+    return sum;
+}
+
 static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, uint32_t first)
 {
-    double heavy = 0;
-    for (uint32_t i = first; i < first + item->nodes; ++i) {
-        heavy += (double)pl_softbody_nodes(all)[i].mass;
-    }
+    const pl_soft_shove *pushes = all->step->pushed ? all->step->pushes.data : NULL;
+    double heavy = pushes != NULL ? pushes[first].heavy : 0;
+    heavy += mass_of(all, item, first);
     for (uint32_t i = first; i < first + item->nodes; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
         points_of(all->step)[i] =
@@ -116,7 +124,7 @@ static bool gather(plumb_world *world)
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
         gather_nodes(all, item, at.node);
-        s->mass += points_of(s)[at.node].heavy;
+        s->mass += mass_of(all, item, at.node);
         if (!gather_pins(world, item, at)) {
             return false;
         }
@@ -126,17 +134,23 @@ static bool gather(plumb_world *world)
     return true;
 }
 
-static bool reserve(plumb_world *world)
+bool pl_soft_make_step(plumb_world *world)
 {
     pl_softbodies *all = &world->softbodies;
     if (all->step == NULL) {
         all->step = pl_resize(&world->memory, NULL, 0, sizeof *all->step);
-        if (all->step == NULL) {
-            return false;
+        if (all->step != NULL) {
+            *all->step = (pl_soft_step){ .point_count = 0 };
         }
-        *all->step = (pl_soft_step){ .point_count = 0 };
     }
-    return pl_buffer_reserve(&world->memory, &all->step->points,
+    return all->step != NULL;
+}
+
+static bool reserve(plumb_world *world)
+{
+    const pl_softbodies *all = &world->softbodies;
+    return pl_soft_make_step(world) &&
+           pl_buffer_reserve(&world->memory, &all->step->points,
                              all->node_count * sizeof(pl_soft_point)) &&
            pl_buffer_reserve(&world->memory, &all->step->pulls,
                              all->edge_count * sizeof(pl_soft_pull)) &&

@@ -41,6 +41,7 @@ typedef struct pl_liquid_point {
     X(uint32_t, first) /* of its points */                                                           \
     X(uint32_t, row) /* of the system of pressures; 0: air or solid */                               \
     X(near_real, solid_u) X(near_real, solid_v) /* [m/s] closed part times the speed of what closes it */ \
+    X(near_real, swell) /* [m/s] what soft bodies in it grow by, which is no flow */                \
     X(near_real, cover) /* 0..1 of it is solid */
 #define PL_LIQUID_WRITTEN(X)                                                                         \
     X(uint32_t, left) X(uint32_t, right) X(uint32_t, down) X(uint32_t, up) /* neighbours */          \
@@ -121,6 +122,41 @@ typedef struct pl_liquid_link {
     near_real arm;  // [m] about the body's centre: a turn of 1 rad/s moves it so fast along the normal
 } pl_liquid_link;
 
+// A node of a soft body that the liquid pushes.
+typedef struct pl_liquid_node {
+    double x, y, vx, vy; // [m], [m/s] at this time of the step
+    double gain[2];      // [m/s] that the step adds without the liquid
+    double seen[2];      // that velocity, as the faces that it closes have it
+    double impulse[2];   // [N s] since the step began
+    double sum[2];       // of pressures, in one product with the matrix
+} pl_liquid_node;
+
+// Nodes of a ring, whose mean is the node behind them that its triangles meet in.
+typedef struct pl_liquid_ring {
+    uint32_t middle, first, count; // first: in the world's list of rings
+    uint32_t node;                 // that its numbers are counted from
+} pl_liquid_ring;
+
+// A soft body near the liquid.
+typedef struct pl_liquid_softbody {
+    plumb_softbody entity;
+    uint32_t first, count; // nodes
+    double held[3];        // as that of pl_liquid_body
+    double mass;           // [kg]
+    double x, y, inertia;  // [m] centre of mass, [kg m^2]
+    double spin;           // in the sums of its nodes
+    bool turns;            // nothing holds it: it turns as one
+} pl_liquid_softbody;
+
+// A part of a face that a triangle of a soft body closes: it moves as its nodes do, by their shares.
+typedef struct pl_liquid_soft_link {
+    uint32_t cell;
+    uint32_t nodes[3];
+    bool upright;
+    near_real part, rest; // as those of pl_liquid_link
+    near_real shares[3], slopes[3]; // slopes: what these gain in half a cell across the face
+} pl_liquid_soft_link;
+
 // A face across which a grid goes on at its other side.
 typedef struct pl_liquid_wrap {
     uint32_t a, b;  // rows
@@ -132,6 +168,9 @@ typedef struct pl_liquid_solid {
     uint32_t piece, body; // body: of the list above; PL_NONE: static. piece: PL_NONE, it stays where it is
     int count;            // corners
     bool thin;            // less than a cell across
+    bool soft;            // a triangle of a soft body
+    uint32_t nodes[3];    // of that, at its corners
+    uint32_t exits;       // bits of sides over which particles in it leave
     double radius;        // cells
     double x[16], y[16];  // cells, at this time of the step
     // The same drawn in by a film, but where it lies on its body's other pieces; of bodies that yield.
@@ -176,6 +215,12 @@ typedef struct pl_liquid_grid {
     pl_liquid_link *links;
     pl_liquid_wrap *wraps;
     uint32_t wrap_count;
+    uint32_t node_count, ring_count, softbody_count, soft_link_count;
+    pl_liquid_node *nodes; // of soft bodies, in their order, with the middles of rings behind
+    pl_liquid_ring *rings;
+    pl_liquid_softbody *softbodies;
+    pl_liquid_soft_link *soft_links;
+    const struct plumb_world *world; // whose soft bodies these are
     bool films;  // between bodies and what they touch
     double drag; // [kg] above 0: viscosity drags bodies, density times the square of a cell's side
     const pl_liquid_mixture *mixture; // null: all is one phase
@@ -200,7 +245,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined, nodes, rings, softbodies, soft_links, sides;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {

@@ -28,6 +28,9 @@ typedef struct pl_soft_point {
     double mass, radius; // [kg], [m]
     double damping;      // [1/s]
     double wind_x, wind_y; // [m/s] against which
+    double push_x, push_y; // [N] of the liquid
+    double way_x, way_y;   // [m/s] as it goes by what the liquid has found
+    double follow;         // [s] of dampers towards that, over stiffness; 0: none
     double friction;     // [-]
     double rx, ry;       // [m] of one that is pinned to a body: from its centre of mass, now
     double px, py;       // [m] the same in the body's frame; in the world where no body holds it
@@ -73,6 +76,15 @@ typedef struct pl_soft_contact {
     double most;     // [N] that friction holds
 } pl_soft_contact;
 
+// What the liquid does to a node in a step, and how the node goes by what the liquid has found.
+typedef struct pl_soft_shove {
+    double x, y;   // [N]
+    double mass;   // [kg] of liquid that goes along with it
+    double ax, ay; // [m/s^2]
+    double follow; // [s] of dampers towards that, over stiffness
+    double heavy;  // [kg] of liquid that its soft body takes the place of
+} pl_soft_shove;
+
 // What an edge was asked for last.
 typedef struct pl_soft_pull {
     double tension, strain; // [N], [-]
@@ -91,9 +103,10 @@ typedef struct pl_soft_matrix {
 } pl_soft_matrix;
 
 typedef struct pl_soft_step {
-    pl_buffer points, bodies, obstacles, near_, contacts, keys, order, index, numbers, shapes, rows, pulls, winds;
+    pl_buffer points, bodies, obstacles, near_, contacts, keys, order, index, numbers, shapes, rows, pulls, winds, pushes;
     uint32_t point_count, body_count, obstacle_count, near_count, contact_count;
     uint32_t wind_count; // volumes of fluid that nodes may be in
+    bool pushed;         // in this step, by the liquid; pushes: pl_soft_shove, one a node
     uint32_t coupled; // bodies that are unknowns; rows: a byte a dynamic row, whether it is one
     int done;         // substeps
     double mass;      // [kg] of all nodes

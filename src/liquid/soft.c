@@ -1,0 +1,676 @@
+// soft.c - soft bodies in the liquid: their triangles as solids, their nodes in the system of pressures.
+//
+// What has an area keeps the liquid out: the triangles of a sheet, the inside of a ring with gas, as triangles about the mean of its
+// nodes. Threads have none: ropes, nets and cloth let it through. A triangle closes areas of faces, as a body does that
+// yields; what it closes moves with the mean of its nodes at that place, and the pressure there pushes these by the same
+// shares. How they answer is the matrix of a whole step of the soft bodies (softbody/foresee.c), stiffness and contacts
+// with it: so neither a light skin nor a stiff one limits the step.
+//
+// Reads: soft bodies, rows, pressures. Writes: solids and nodes of the grid, links of both, pushes of soft bodies. Cost: a substep of
+// all soft bodies, and each iteration of the pressures a solution of their system; only where one is near the liquid.
+#include "core/sort.h"
+#include "liquid/liquid.h"
+#include "softbody/softbody.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST   1e30 // [N], [m/s^2]
+#define LOAD   0.25 // of a layer of cells
+#define FOLLOW 1.0  // of the step: dampers towards what the liquid has found (softbody/pushes.c)
+
+static double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+//---- what is near --------------------------------------------------------------------------------
+
+static bool has_gas(const pl_softbody *item)
+{
+    return item->ring > 0 && item->pressure + item->ambient > 0;
+}
+
+static bool is_near(const pl_softbodies *all, const pl_softbody *item, uint32_t first,
+                    const pl_liquid_region *r, double dt)
+{
+    bool near = false;
+    for (uint32_t i = first; i < first + item->nodes && !near; ++i) {
+        const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
+        const double x = (double)n->position.x, y = (double)n->position.y;
+        const double way = dt * (fabs((double)n->velocity.x) + fabs((double)n->velocity.y));
+        near =
+            x + way > r->low_x && x - way < r->high_x && y + way > r->low_y && y - way < r->high_y;
+    }
+    return near && (item->triangles > 0 || has_gas(item));
+}
+
+static bool add_triangle(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t a, uint32_t b,
+                         uint32_t c, uint32_t exits)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(memory, &scratch->solids,
+                           (g->solid_count + 1) * sizeof(pl_liquid_solid))) {
+        return false;
+    }
+    g->solids = scratch->solids.data;
+    pl_liquid_solid *s = &g->solids[g->solid_count++];
+    memset(s, 0, sizeof *s);
+    s->piece = s->body = PL_LIQUID_NONE;
+    s->soft = true;
+    s->nodes[0] = a, s->nodes[1] = b, s->nodes[2] = c;
+    s->exits = exits;
+    return true;
+}
+
+// Particles in a sheet leave it over the sides of its outline, and in its middle over those that lead there the shortest way.
+static bool find_exits(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t first)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const uint32_t count = g->solid_count - first;
+    if (!pl_buffer_reserve(memory, &scratch->sides,
+                           3 * (size_t)count * (sizeof(pl_keyed) + sizeof(uint32_t)) +
+                               2 * (size_t)count * sizeof(uint32_t))) {
+        return false;
+    }
+    pl_keyed *sides = scratch->sides.data;
+    uint32_t *beside = (uint32_t *)(void *)(sides + 3 * (size_t)count);
+    uint32_t *depth = beside + 3 * (size_t)count, *queue = depth + count, tail = 0;
+    for (uint32_t i = 0; i < 3 * count; ++i) {
+        const uint32_t *n = g->solids[first + i / 3].nodes, a = n[i % 3], b = n[(i + 1) % 3];
+        sides[i] = (pl_keyed){ a < b ? pl_key(a, b) : pl_key(b, a), i, 0 };
+        beside[i] = PL_LIQUID_NONE;
+    }
+    pl_sort_keyed(sides, 3 * count);
+    for (uint32_t i = 0; i + 1 < 3 * count; ++i) {
+        if (sides[i].key == sides[i + 1].key) {
+            beside[sides[i].value] = sides[i + 1].value / 3;
+            beside[sides[i + 1].value] = sides[i].value / 3;
+        }
+    }
+    for (uint32_t t = 0; t < count; ++t) {
+        depth[t] = PL_LIQUID_NONE;
+        for (uint32_t k = 0; k < 3; ++k) {
+            if (beside[3 * t + k] == PL_LIQUID_NONE) {
+                g->solids[first + t].exits |= UINT32_C(1) << k;
+                depth[t] = 0;
+            }
+        }
+        if (depth[t] == 0) {
+            queue[tail++] = t;
+        }
+    }
+    for (uint32_t at = 0; at < tail; ++at) {
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t next = beside[3 * queue[at] + k];
+            if (next != PL_LIQUID_NONE && depth[next] == PL_LIQUID_NONE) {
+                depth[next] = depth[queue[at]] + 1;
+                queue[tail++] = next;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < 3 * count; ++i) {
+        if (beside[i] != PL_LIQUID_NONE && depth[beside[i]] < depth[i / 3]) {
+            g->solids[first + i / 3].exits |= UINT32_C(1) << i % 3;
+        }
+    }
+    return true;
+}
+
+static bool add_sheet(plumb_world *world, pl_liquid_scratch *scratch, const pl_softbody *item,
+                      pl_softbody_place at)
+{
+    const uint32_t first = scratch->grid.solid_count;
+    for (uint32_t k = 0; k < item->triangles; ++k) {
+        const plumb_softbody_triangle *t =
+            &pl_softbody_triangles(&world->softbodies)[at.triangle + k];
+        if (!add_triangle(&world->memory, scratch, at.node + t->a, at.node + t->b, at.node + t->c,
+                          0)) {
+            return false;
+        }
+    }
+    return item->triangles == 0 || find_exits(&world->memory, scratch, first);
+}
+
+static bool add_ring(plumb_world *world, pl_liquid_scratch *scratch, const pl_softbody *item,
+                     pl_softbody_place at)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const uint32_t *ring = pl_softbody_rings(&world->softbodies) + at.ring;
+    const uint32_t middle = world->softbodies.node_count + g->ring_count;
+    if (!pl_buffer_reserve(&world->memory, &scratch->rings,
+                           (g->ring_count + 1) * sizeof(pl_liquid_ring))) {
+        return false;
+    }
+    g->rings = scratch->rings.data;
+    g->rings[g->ring_count++] = (pl_liquid_ring){ middle, at.ring, item->ring, at.node };
+    for (uint32_t k = 0; k < item->ring; ++k) {
+        const uint32_t next = k + 1 < item->ring ? k + 1 : 0;
+        if (!add_triangle(&world->memory, scratch, at.node + ring[k], at.node + ring[next], middle,
+                          1)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool add_softbody(plumb_world *world, pl_liquid_scratch *scratch, const pl_softbody *item,
+                         pl_softbody_place at)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(&world->memory, &scratch->softbodies,
+                           (g->softbody_count + 1) * sizeof(pl_liquid_softbody))) {
+        return false;
+    }
+    g->softbodies = scratch->softbodies.data;
+    g->softbodies[g->softbody_count++] = (pl_liquid_softbody){
+        .entity = item->entity, .first = at.node, .count = item->nodes, .turns = item->pins == 0
+    };
+    return true;
+}
+
+static bool add_solids(plumb_world *world, pl_liquid_scratch *scratch,
+                       const pl_liquid_region *region, double dt)
+{
+    const pl_softbodies *all = &world->softbodies;
+    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    for (uint32_t i = 0; i < all->count; ++i) {
+        const pl_softbody *item = &pl_softbody_items(all)[i];
+        if (is_near(all, item, at.node, region, dt) &&
+            (!add_sheet(world, scratch, item, at) ||
+             (has_gas(item) && !add_ring(world, scratch, item, at)) ||
+             !add_softbody(world, scratch, item, at))) {
+            return false;
+        }
+        at = pl_softbody_behind(at, item);
+    }
+    return true;
+}
+
+//---- nodes ---------------------------------------------------------------------------------------
+
+static const pl_liquid_node *ring_node(const pl_liquid_grid *g, const pl_liquid_ring *ring,
+                                       uint32_t k)
+{
+    const uint32_t *list = pl_softbody_rings(&g->world->softbodies) + ring->first;
+    return &g->nodes[ring->node + list[k]];
+}
+
+// The middle of a ring is, and moves, as its nodes do in the mean.
+static void see_middles(pl_liquid_grid *g)
+{
+    for (uint32_t r = 0; r < g->ring_count; ++r) {
+        const pl_liquid_ring *ring = &g->rings[r];
+        pl_liquid_node sum = g->nodes[ring->middle];
+        sum.x = sum.y = sum.vx = sum.vy = 0;
+        for (uint32_t k = 0; k < ring->count; ++k) {
+            const pl_liquid_node *n = ring_node(g, ring, k);
+            sum.x += n->x, sum.y += n->y, sum.vx += n->vx, sum.vy += n->vy;
+        }
+        const double share = 1.0 / ring->count;
+        sum.x *= share, sum.y *= share, sum.vx *= share, sum.vy *= share;
+        g->nodes[ring->middle] = sum;
+    }
+}
+
+// [kg] of a node, and of what it takes along.
+static double mass_of(const pl_softbodies *all, uint32_t i)
+{
+    const pl_soft_shove *pushes =
+        all->step != NULL && all->step->pushed ? all->step->pushes.data : NULL;
+    return (double)pl_softbody_nodes(all)[i].mass + (pushes != NULL ? pushes[i].mass : 0);
+}
+
+// Where soft bodies are, and how hard they are to turn.
+static void see_softbodies(pl_liquid_grid *g)
+{
+    const pl_softbodies *all = &g->world->softbodies;
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        pl_liquid_softbody *b = &g->softbodies[k];
+        double x = 0, y = 0;
+        b->mass = b->inertia = 0;
+        for (uint32_t i = b->first; i < b->first + b->count; ++i) {
+            const double m = mass_of(all, i);
+            b->mass += m;
+            x += m * g->nodes[i].x, y += m * g->nodes[i].y;
+        }
+        b->x = x / b->mass, b->y = y / b->mass;
+        for (uint32_t i = b->first; i < b->first + b->count; ++i) {
+            const double rx = g->nodes[i].x - b->x, ry = g->nodes[i].y - b->y;
+            b->inertia += mass_of(all, i) * (rx * rx + ry * ry);
+        }
+    }
+}
+
+bool pl_liquid_find_soft(plumb_world *world, pl_liquid_scratch *scratch, pl_liquid_region region,
+                         real dt)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const pl_softbodies *all = &world->softbodies;
+    g->node_count = g->ring_count = g->softbody_count = 0;
+    if (all->count == 0 || !add_solids(world, scratch, &region, (double)dt)) {
+        return all->count == 0;
+    }
+    const size_t count = (size_t)all->node_count + g->ring_count;
+    if (g->softbody_count == 0) {
+        return true;
+    }
+    if (!pl_buffer_reserve(&world->memory, &scratch->nodes, count * sizeof(pl_liquid_node))) {
+        return false;
+    }
+    g->world = world;
+    g->nodes = scratch->nodes.data;
+    g->node_count = (uint32_t)count;
+    memset(g->nodes, 0, count * sizeof *g->nodes);
+    for (uint32_t i = 0; i < all->node_count; ++i) {
+        const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
+        pl_liquid_node *to = &g->nodes[i];
+        to->x = pl_soft_exact(n->position.x, n->position_rest.x);
+        to->y = pl_soft_exact(n->position.y, n->position_rest.y);
+        to->vx = pl_soft_exact(n->velocity.x, n->velocity_rest.x);
+        to->vy = pl_soft_exact(n->velocity.y, n->velocity_rest.y);
+    }
+    see_middles(g);
+    see_softbodies(g);
+    return true;
+}
+
+//---- what they do anyway -------------------------------------------------------------------------
+
+// What held one in the last steps holds it again. Contacts of a soft body in the liquid bear what that presses it with: they are
+// stiff for the liquid that it takes the place of, as well.
+static void hold(const pl_liquid_grid *g, const pl_liquid_softbody *b, double density,
+                 pl_soft_shove *pushes)
+{
+    const double turns = b->inertia > 0 ? b->held[2] / b->inertia : 0;
+    double low_x = INFINITY, low_y = INFINITY, high_x = -INFINITY, high_y = -INFINITY;
+    for (uint32_t i = b->first; i < b->first + b->count; ++i) {
+        const double x = g->nodes[i].x, y = g->nodes[i].y;
+        const double m = mass_of(&g->world->softbodies, i);
+        pushes[i].x = m * (b->held[0] / b->mass - turns * (y - b->y));
+        pushes[i].y = m * (b->held[1] / b->mass + turns * (x - b->x));
+        low_x = least(low_x, x), high_x = -least(-high_x, -x);
+        low_y = least(low_y, y), high_y = -least(-high_y, -y);
+    }
+    pushes[b->first].heavy = density * (high_x - low_x) * (high_y - low_y);
+}
+
+// What touches something does not turn freely.
+static bool touches(const pl_soft_step *s, const pl_liquid_softbody *b)
+{
+    const pl_soft_contact *contacts = s->contacts.data;
+    bool any = false;
+    for (uint32_t i = 0; i < s->contact_count; ++i) {
+        any |= contacts[i].point - b->first < b->count && contacts[i].force > 0;
+    }
+    return any;
+}
+
+// What is far lighter than the liquid beside it takes some of that along.
+static void load(const pl_liquid_grid *g, double density, pl_soft_shove *pushes)
+{
+    const double layer = LOAD * density * (double)g->h * (double)g->h;
+    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
+        const pl_liquid_soft_link *link = &g->soft_links[i];
+        const pl_liquid_ends at = pl_liquid_ends_of(g, link->cell, link->upright);
+        for (int k = 0; k < 3 && (at.before != 0 || at.behind != 0); ++k) {
+            if (link->nodes[k] < g->world->softbodies.node_count) {
+                pushes[link->nodes[k]].mass += layer * (double)(link->part * link->shares[k]);
+            }
+        }
+    }
+}
+
+bool pl_liquid_foresee_soft(plumb_world *world, pl_liquid_grid *g, real dt)
+{
+    if (g->softbody_count == 0) {
+        return true;
+    }
+    pl_soft_shove *pushes = pl_soft_make_pushes(world);
+    if (pushes != NULL) {
+        load(g, (double)pl_liquid_desc(&world->liquid)->density, pushes);
+    }
+    see_softbodies(g);
+    for (uint32_t k = 0; k < g->softbody_count && pushes != NULL; ++k) {
+        hold(g, &g->softbodies[k], (double)pl_liquid_desc(&world->liquid)->density, pushes);
+    }
+    if (pushes == NULL || !pl_soft_foresee(world, dt)) {
+        return false;
+    }
+    const pl_soft_step *s = world->softbodies.step;
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        const pl_soft_point *end = pl_soft_point_at(s, i);
+        pl_liquid_node *n = &g->nodes[i];
+        n->gain[0] = pl_liquid_held(end->vx - n->vx, PL_LIQUID_SPEED);
+        n->gain[1] = pl_liquid_held(end->vy - n->vy, PL_LIQUID_SPEED);
+    }
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        g->softbodies[k].turns = g->softbodies[k].turns && !touches(s, &g->softbodies[k]);
+    }
+    return true;
+}
+
+void pl_liquid_soft_motion(const pl_liquid_grid *g, const pl_liquid_softbody *b, bool by_now,
+                           double out[3])
+{
+    const plumb_softbody_node *nodes = pl_softbody_nodes(&g->world->softbodies);
+    out[0] = out[1] = out[2] = 0;
+    for (uint32_t i = b->first; i < b->first + b->count; ++i) {
+        const double m = mass_of(&g->world->softbodies, i);
+        const double vx = by_now ? (double)nodes[i].velocity.x : g->nodes[i].vx;
+        const double vy = by_now ? (double)nodes[i].velocity.y : g->nodes[i].vy;
+        out[0] += m * vx / b->mass;
+        out[1] += m * vy / b->mass;
+        out[2] += m * ((g->nodes[i].x - b->x) * vy - (g->nodes[i].y - b->y) * vx);
+    }
+    out[2] = b->inertia > 0 ? out[2] / b->inertia : 0;
+}
+
+void pl_liquid_pull_nodes(pl_liquid_grid *g, double part)
+{
+    for (uint32_t i = 0; i < g->node_count; ++i) {
+        g->nodes[i].vx += part * g->nodes[i].gain[0];
+        g->nodes[i].vy += part * g->nodes[i].gain[1];
+    }
+    see_middles(g);
+    see_softbodies(g);
+    pl_liquid_follow_nodes(g);
+}
+
+void pl_liquid_place_nodes(pl_liquid_grid *g, double dt)
+{
+    for (uint32_t i = 0; i < g->node_count; ++i) {
+        g->nodes[i].x += dt * g->nodes[i].vx;
+        g->nodes[i].y += dt * g->nodes[i].vy;
+    }
+}
+
+// One that is turned inside out is none.
+void pl_liquid_place_triangle(const pl_liquid_grid *g, pl_liquid_solid *s)
+{
+    const double scale = 1 / (double)g->h;
+    s->low_x = s->low_y = INFINITY;
+    s->high_x = s->high_y = -INFINITY;
+    for (int i = 0; i < 3; ++i) {
+        s->x[i] = g->nodes[s->nodes[i]].x * scale;
+        s->y[i] = g->nodes[s->nodes[i]].y * scale;
+    }
+    const double area =
+        (s->x[1] - s->x[0]) * (s->y[2] - s->y[0]) - (s->y[1] - s->y[0]) * (s->x[2] - s->x[0]);
+    s->count = area > 0 ? 3 : 0;
+    for (int i = 0; i < s->count; ++i) {
+        s->low_x = least(s->low_x, s->x[i]);
+        s->low_y = least(s->low_y, s->y[i]);
+        s->high_x = -least(-s->high_x, -s->x[i]);
+        s->high_y = -least(-s->high_y, -s->y[i]);
+    }
+}
+
+//---- links ---------------------------------------------------------------------------------------
+
+// Changes how fast what closes a face goes, and by how much it swells across: half of that in either cell.
+static void add_motion(pl_liquid_grid *g, const pl_liquid_soft_link *link, double speed,
+                       double swell)
+{
+    const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
+    const near_real more = link->part * (near_real)pl_liquid_held(swell, PL_LIQUID_SPEED);
+    pl_liquid_add_speed(g, link->cell, link->upright, link->part, speed);
+    g->swell[link->cell] += more;
+    g->swell[other] += more;
+}
+
+void pl_liquid_close_softly(pl_liquid_grid *g, const pl_liquid_solid *s, pl_liquid_soft_link *link,
+                            double x, double y)
+{
+    const double ux = s->x[1] - s->x[0], uy = s->y[1] - s->y[0];
+    const double vx = s->x[2] - s->x[0], vy = s->y[2] - s->y[0];
+    const double px = x - s->x[0], py = y - s->y[0], scale = 1 / (ux * vy - uy * vx);
+    const double b = (px * vy - py * vx) * scale, c = (ux * py - uy * px) * scale;
+    const double half_b = (link->upright ? -vx : vy) * scale / 2;
+    const double half_c = (link->upright ? ux : -uy) * scale / 2;
+    const double shares[3] = { 1 - b - c, b, c }, slopes[3] = { -half_b - half_c, half_b, half_c };
+    double speed = 0, swell = 0;
+    for (int i = 0; i < 3; ++i) {
+        const pl_liquid_node *n = &g->nodes[s->nodes[i]];
+        speed += shares[i] * (link->upright ? n->vy : n->vx);
+        swell += slopes[i] * (link->upright ? n->vy : n->vx);
+        link->nodes[i] = s->nodes[i];
+        link->shares[i] = (near_real)shares[i];
+        link->slopes[i] = (near_real)slopes[i];
+    }
+    add_motion(g, link, speed, swell);
+}
+
+static pl_liquid_ends ends_of(const pl_liquid_grid *g, const pl_liquid_soft_link *link)
+{
+    return pl_liquid_ends_of(g, link->cell, link->upright);
+}
+
+static void clear_sums(pl_liquid_grid *g)
+{
+    for (uint32_t i = 0; i < g->node_count; ++i) {
+        g->nodes[i].sum[0] = g->nodes[i].sum[1] = 0;
+    }
+}
+
+// The pushes of both sides of a face.
+static void add_to_sums(pl_liquid_grid *g, const pl_liquid_soft_link *link, double before,
+                        double behind)
+{
+    for (int k = 0; k < 3; ++k) {
+        g->nodes[link->nodes[k]].sum[link->upright ? 1 : 0] +=
+            (before - behind) * (double)link->shares[k] -
+            (before + behind) * (double)link->slopes[k];
+    }
+}
+
+// What pressures do to the sums of nodes: force over density h^2.
+static void sum_links(pl_liquid_grid *g, const near_real *p)
+{
+    clear_sums(g);
+    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
+        const pl_liquid_soft_link *link = &g->soft_links[i];
+        const pl_liquid_ends at = ends_of(g, link);
+        add_to_sums(g, link, (double)(link->part * p[at.before]),
+                    (double)(link->part * p[at.behind]));
+    }
+}
+
+// The middles of rings hand what they got to the nodes.
+static void share_sums(pl_liquid_grid *g)
+{
+    for (uint32_t r = 0; r < g->ring_count; ++r) {
+        const pl_liquid_ring *ring = &g->rings[r];
+        pl_liquid_node *middle = &g->nodes[ring->middle];
+        const uint32_t *list = pl_softbody_rings(&g->world->softbodies) + ring->first;
+        for (uint32_t k = 0; k < ring->count; ++k) {
+            pl_liquid_node *n = &g->nodes[ring->node + list[k]];
+            n->sum[0] += middle->sum[0] / ring->count;
+            n->sum[1] += middle->sum[1] / ring->count;
+        }
+        middle->sum[0] = middle->sum[1] = 0;
+    }
+}
+
+// The spin in the sums of one: velocities, or with `weighs` impulses.
+static double spin_of(const pl_liquid_grid *g, const pl_liquid_softbody *t, bool weighs)
+{
+    double sum = 0;
+    for (uint32_t i = t->first; i < t->first + t->count; ++i) {
+        const double x = g->nodes[i].x - t->x, y = g->nodes[i].y - t->y;
+        const double moment = x * g->nodes[i].sum[1] - y * g->nodes[i].sum[0];
+        sum += weighs ? moment : moment * mass_of(&g->world->softbodies, i);
+    }
+    return t->inertia > 0 ? sum / t->inertia : 0;
+}
+
+static void add_spin(pl_liquid_grid *g, const pl_liquid_softbody *t, bool weighs, double spin)
+{
+    for (uint32_t i = t->first; i < t->first + t->count; ++i) {
+        const double by = spin * (weighs ? mass_of(&g->world->softbodies, i) : 1);
+        g->nodes[i].sum[0] -= by * (g->nodes[i].y - t->y);
+        g->nodes[i].sum[1] += by * (g->nodes[i].x - t->x);
+    }
+}
+
+// What impulses of `push` times the sums add to velocities, by the matrix. Returns the product of both over push.
+static double answer_by_matrix(pl_liquid_grid *g, double push)
+{
+    const pl_soft_step *s = g->world->softbodies.step;
+    double *right = s->matrix.right, bend = 0;
+    memset(right, 0, 3 * (size_t)s->matrix.blocks * sizeof *right);
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        pl_soft_push(s, i, push * g->nodes[i].sum[0], push * g->nodes[i].sum[1]);
+    }
+    pl_soft_answer(s);
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        const uint32_t block = pl_soft_point_at(s, i)->block;
+        double *sum = g->nodes[i].sum;
+        const double x = block == PL_NONE ? 0 : right[3 * (size_t)block];
+        const double y = block == PL_NONE ? 0 : right[3 * (size_t)block + 1];
+        bend += sum[0] * x + sum[1] * y;
+        sum[0] = x;
+        sum[1] = y;
+    }
+    return bend;
+}
+
+// Sums times `push` as impulses; sums become what these add to velocities. Returns the product of both over push. What nothing holds turns
+// as a rigid body does: the matrix is that of nodes under stress which go straight on.
+static double answer(pl_liquid_grid *g, double push)
+{
+    share_sums(g);
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        pl_liquid_softbody *b = &g->softbodies[k];
+        b->spin = b->turns ? spin_of(g, b, true) : 0;
+        add_spin(g, b, true, -b->spin);
+    }
+    double bend = answer_by_matrix(g, push);
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        const pl_liquid_softbody *b = &g->softbodies[k];
+        add_spin(g, b, false, b->turns ? push * b->spin - spin_of(g, b, false) : 0);
+        bend += push * b->spin * b->spin * b->inertia;
+    }
+    for (uint32_t r = 0; r < g->ring_count; ++r) {
+        const pl_liquid_ring *ring = &g->rings[r];
+        double *sum = g->nodes[ring->middle].sum;
+        for (uint32_t k = 0; k < ring->count; ++k) {
+            sum[0] += ring_node(g, ring, k)->sum[0] / ring->count;
+            sum[1] += ring_node(g, ring, k)->sum[1] / ring->count;
+        }
+    }
+    return bend;
+}
+
+double pl_liquid_add_soft_links(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
+{
+    if (g->soft_link_count == 0) {
+        return 0;
+    }
+    sum_links(g, p);
+    const double bend = answer(g, push);
+    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
+        const pl_liquid_soft_link *link = &g->soft_links[i];
+        const pl_liquid_ends at = ends_of(g, link);
+        double speed = 0, swell = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double v = g->nodes[link->nodes[k]].sum[link->upright ? 1 : 0];
+            speed += (double)link->shares[k] * v;
+            swell += (double)link->slopes[k] * v;
+        }
+        out[at.before] += link->part * (near_real)(speed - swell);
+        out[at.behind] -= link->part * (near_real)(speed + swell);
+    }
+    out[0] = 0;
+    return bend;
+}
+
+//---- motion --------------------------------------------------------------------------------------
+
+// The sums of nodes, times `push`, as impulses.
+static void push_sums(pl_liquid_grid *g, double push)
+{
+    share_sums(g);
+    for (uint32_t i = 0; i < g->node_count; ++i) {
+        pl_liquid_node *n = &g->nodes[i];
+        n->impulse[0] += push * n->sum[0];
+        n->impulse[1] += push * n->sum[1];
+    }
+    answer(g, push);
+    for (uint32_t i = 0; i < g->node_count; ++i) {
+        pl_liquid_node *n = &g->nodes[i];
+        n->vx += n->sum[0];
+        n->vy += n->sum[1];
+    }
+    see_middles(g);
+}
+
+void pl_liquid_push_nodes(pl_liquid_grid *g, double push)
+{
+    if (g->soft_link_count > 0) {
+        sum_links(g, g->vectors[PL_LIQUID_P]);
+        push_sums(g, push);
+    }
+}
+
+void pl_liquid_bear_nodes(pl_liquid_grid *g, double push, double fall_x, double fall_y)
+{
+    if (g->soft_link_count == 0) {
+        return;
+    }
+    clear_sums(g);
+    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
+        const pl_liquid_soft_link *link = &g->soft_links[i];
+        const pl_liquid_ends at = ends_of(g, link);
+        if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
+            const double light = (double)(link->upright ? pl_liquid_light_v(g, link->cell)
+                                                        : pl_liquid_light_u(g, link->cell));
+            add_to_sums(g, link, -(double)link->rest * (link->upright ? fall_y : fall_x) / light,
+                        0);
+        }
+    }
+    push_sums(g, push);
+}
+
+void pl_liquid_follow_nodes(pl_liquid_grid *g)
+{
+    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
+        const pl_liquid_soft_link *link = &g->soft_links[i];
+        double speed = 0, swell = 0;
+        for (int k = 0; k < 3; ++k) {
+            const pl_liquid_node *n = &g->nodes[link->nodes[k]];
+            const double more = link->upright ? n->vy - n->seen[1] : n->vx - n->seen[0];
+            speed += (double)link->shares[k] * more;
+            swell += (double)link->slopes[k] * more;
+        }
+        add_motion(g, link, speed, swell);
+    }
+    pl_liquid_see_nodes(g);
+}
+
+void pl_liquid_see_nodes(pl_liquid_grid *g)
+{
+    for (uint32_t i = 0; i < g->node_count; ++i) {
+        g->nodes[i].seen[0] = g->nodes[i].vx;
+        g->nodes[i].seen[1] = g->nodes[i].vy;
+    }
+}
+
+void pl_liquid_push_soft(plumb_world *world, const pl_liquid_grid *g, double dt)
+{
+    pl_soft_shove *pushes = g->softbody_count > 0 ? world->softbodies.step->pushes.data : NULL;
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        const pl_liquid_softbody *b = &g->softbodies[k];
+        for (uint32_t i = b->first; i < b->first + b->count; ++i) {
+            const pl_liquid_node *n = &g->nodes[i];
+            const plumb_softbody_node *before = &pl_softbody_nodes(&world->softbodies)[i];
+            const double vx = pl_soft_exact(before->velocity.x, before->velocity_rest.x);
+            const double vy = pl_soft_exact(before->velocity.y, before->velocity_rest.y);
+            pushes[i].x = pl_liquid_held(n->impulse[0] / dt, MOST);
+            pushes[i].y = pl_liquid_held(n->impulse[1] / dt, MOST);
+            pushes[i].ax = pl_liquid_held((n->vx - vx) / dt, MOST);
+            pushes[i].ay = pl_liquid_held((n->vy - vy) / dt, MOST);
+            pushes[i].follow = FOLLOW * dt;
+        }
+    }
+}
