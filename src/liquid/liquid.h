@@ -277,6 +277,31 @@ void pl_liquid_soft_motion(const pl_liquid_grid *grid, const pl_liquid_softbody 
 void pl_liquid_pull_nodes(pl_liquid_grid *grid, double part);
 void pl_liquid_place_nodes(pl_liquid_grid *grid, double dt);
 void pl_liquid_place_triangle(const pl_liquid_grid *grid, pl_liquid_solid *solid);
+// Impulses of the step become forces on nodes.
+void pl_liquid_push_soft(plumb_world *world, const pl_liquid_grid *grid, double dt);
+
+// The middles of rings are, and move, as their nodes do in the mean.
+void pl_liquid_see_middles(pl_liquid_grid *grid);
+
+static inline pl_liquid_node *pl_liquid_ring_node(const pl_liquid_grid *grid,
+                                                  const pl_liquid_ring *ring, uint32_t k)
+{
+    return &grid->nodes[ring->node + pl_softbody_rings(&grid->world->softbodies)[ring->first + k]];
+}
+
+// [kg] of a node, and of what it takes along.
+static inline double pl_liquid_soft_mass(const pl_liquid_grid *grid, uint32_t node)
+{
+    const pl_softbodies *all = &grid->world->softbodies;
+    const pl_soft_step *step = all->step;
+    const double mass = (double)pl_softbody_nodes(all)[node].mass;
+    return step != NULL && step->pushed
+               ? mass + ((const pl_soft_shove *)step->pushes.data)[node].mass
+               : mass;
+}
+
+//---- soft_links.c --------------------------------------------------------------------------------
+
 // A link closes its part of a face by a triangle, with its middle at (x, y) [cells]: nodes and shares of it are told.
 void pl_liquid_close_softly(pl_liquid_grid *grid, const pl_liquid_solid *solid,
                             pl_liquid_soft_link *link, double x, double y);
@@ -287,8 +312,6 @@ void pl_liquid_push_nodes(pl_liquid_grid *grid, double push);
 void pl_liquid_bear_nodes(pl_liquid_grid *grid, double push, double fall_x, double fall_y);
 void pl_liquid_follow_nodes(pl_liquid_grid *grid);
 void pl_liquid_see_nodes(pl_liquid_grid *grid);
-// Impulses of the step become forces on nodes.
-void pl_liquid_push_soft(plumb_world *world, const pl_liquid_grid *grid, double dt);
 
 //---- support.c -----------------------------------------------------------------------------------
 

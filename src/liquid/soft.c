@@ -1,13 +1,10 @@
-// soft.c - soft bodies in the liquid: their triangles as solids, their nodes in the system of pressures.
+// soft.c - soft bodies near the liquid: their triangles as solids of the grid, what their nodes do in a step without it, what they get.
 //
 // What has an area keeps the liquid out: the triangles of a sheet, the inside of a ring with gas, as triangles about the mean of its
-// nodes. Threads have none: ropes, nets and cloth let it through. A triangle closes areas of faces, as a body does that
-// yields; what it closes moves with the mean of its nodes at that place, and the pressure there pushes these by the same
-// shares. How they answer is the matrix of a whole step of the soft bodies (softbody/foresee.c), stiffness and contacts
-// with it: so neither a light skin nor a stiff one limits the step.
+// nodes. Threads have none: ropes, nets and cloth let it through. How nodes answer to pressures is in soft_links.c.
 //
-// Reads: soft bodies, rows, pressures. Writes: solids and nodes of the grid, links of both, pushes of soft bodies. Cost: a substep of
-// all soft bodies, and each iteration of the pressures a solution of their system; only where one is near the liquid.
+// Reads: soft bodies, links, supports. Writes: solids and nodes of the grid, pushes of soft bodies. Cost: a substep of all soft bodies,
+// once a step; only where one is near the liquid.
 #include "core/sort.h"
 #include "liquid/liquid.h"
 #include "softbody/softbody.h"
@@ -189,22 +186,15 @@ static bool add_solids(plumb_world *world, pl_liquid_scratch *scratch,
 
 //---- nodes ---------------------------------------------------------------------------------------
 
-static const pl_liquid_node *ring_node(const pl_liquid_grid *g, const pl_liquid_ring *ring,
-                                       uint32_t k)
-{
-    const uint32_t *list = pl_softbody_rings(&g->world->softbodies) + ring->first;
-    return &g->nodes[ring->node + list[k]];
-}
-
 // The middle of a ring is, and moves, as its nodes do in the mean.
-static void see_middles(pl_liquid_grid *g)
+void pl_liquid_see_middles(pl_liquid_grid *g)
 {
     for (uint32_t r = 0; r < g->ring_count; ++r) {
         const pl_liquid_ring *ring = &g->rings[r];
         pl_liquid_node sum = g->nodes[ring->middle];
         sum.x = sum.y = sum.vx = sum.vy = 0;
         for (uint32_t k = 0; k < ring->count; ++k) {
-            const pl_liquid_node *n = ring_node(g, ring, k);
+            const pl_liquid_node *n = pl_liquid_ring_node(g, ring, k);
             sum.x += n->x, sum.y += n->y, sum.vx += n->vx, sum.vy += n->vy;
         }
         const double share = 1.0 / ring->count;
@@ -213,31 +203,22 @@ static void see_middles(pl_liquid_grid *g)
     }
 }
 
-// [kg] of a node, and of what it takes along.
-static double mass_of(const pl_softbodies *all, uint32_t i)
-{
-    const pl_soft_shove *pushes =
-        all->step != NULL && all->step->pushed ? all->step->pushes.data : NULL;
-    return (double)pl_softbody_nodes(all)[i].mass + (pushes != NULL ? pushes[i].mass : 0);
-}
-
 // Where soft bodies are, and how hard they are to turn.
 static void see_softbodies(pl_liquid_grid *g)
 {
-    const pl_softbodies *all = &g->world->softbodies;
     for (uint32_t k = 0; k < g->softbody_count; ++k) {
         pl_liquid_softbody *b = &g->softbodies[k];
         double x = 0, y = 0;
         b->mass = b->inertia = 0;
         for (uint32_t i = b->first; i < b->first + b->count; ++i) {
-            const double m = mass_of(all, i);
+            const double m = pl_liquid_soft_mass(g, i);
             b->mass += m;
             x += m * g->nodes[i].x, y += m * g->nodes[i].y;
         }
         b->x = x / b->mass, b->y = y / b->mass;
         for (uint32_t i = b->first; i < b->first + b->count; ++i) {
             const double rx = g->nodes[i].x - b->x, ry = g->nodes[i].y - b->y;
-            b->inertia += mass_of(all, i) * (rx * rx + ry * ry);
+            b->inertia += pl_liquid_soft_mass(g, i) * (rx * rx + ry * ry);
         }
     }
 }
@@ -270,7 +251,7 @@ bool pl_liquid_find_soft(plumb_world *world, pl_liquid_scratch *scratch, pl_liqu
         to->vx = pl_soft_exact(n->velocity.x, n->velocity_rest.x);
         to->vy = pl_soft_exact(n->velocity.y, n->velocity_rest.y);
     }
-    see_middles(g);
+    pl_liquid_see_middles(g);
     see_softbodies(g);
     return true;
 }
@@ -286,7 +267,7 @@ static void hold(const pl_liquid_grid *g, const pl_liquid_softbody *b, double de
     double low_x = INFINITY, low_y = INFINITY, high_x = -INFINITY, high_y = -INFINITY;
     for (uint32_t i = b->first; i < b->first + b->count; ++i) {
         const double x = g->nodes[i].x, y = g->nodes[i].y;
-        const double m = mass_of(&g->world->softbodies, i);
+        const double m = pl_liquid_soft_mass(g, i);
         pushes[i].x = m * (b->held[0] / b->mass - turns * (y - b->y));
         pushes[i].y = m * (b->held[1] / b->mass + turns * (x - b->x));
         low_x = least(low_x, x), high_x = -least(-high_x, -x);
@@ -356,7 +337,7 @@ void pl_liquid_soft_motion(const pl_liquid_grid *g, const pl_liquid_softbody *b,
     const plumb_softbody_node *nodes = pl_softbody_nodes(&g->world->softbodies);
     out[0] = out[1] = out[2] = 0;
     for (uint32_t i = b->first; i < b->first + b->count; ++i) {
-        const double m = mass_of(&g->world->softbodies, i);
+        const double m = pl_liquid_soft_mass(g, i);
         const double vx = by_now ? (double)nodes[i].velocity.x : g->nodes[i].vx;
         const double vy = by_now ? (double)nodes[i].velocity.y : g->nodes[i].vy;
         out[0] += m * vx / b->mass;
@@ -372,7 +353,7 @@ void pl_liquid_pull_nodes(pl_liquid_grid *g, double part)
         g->nodes[i].vx += part * g->nodes[i].gain[0];
         g->nodes[i].vy += part * g->nodes[i].gain[1];
     }
-    see_middles(g);
+    pl_liquid_see_middles(g);
     see_softbodies(g);
     pl_liquid_follow_nodes(g);
 }
@@ -406,255 +387,7 @@ void pl_liquid_place_triangle(const pl_liquid_grid *g, pl_liquid_solid *s)
     }
 }
 
-//---- links ---------------------------------------------------------------------------------------
-
-// Changes how fast what closes a face goes, and by how much it swells across: half of that in either cell.
-static void add_motion(pl_liquid_grid *g, const pl_liquid_soft_link *link, double speed,
-                       double swell)
-{
-    const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-    const near_real more = link->part * (near_real)pl_liquid_held(swell, PL_LIQUID_SPEED);
-    pl_liquid_add_speed(g, link->cell, link->upright, link->part, speed);
-    g->swell[link->cell] += more;
-    g->swell[other] += more;
-}
-
-void pl_liquid_close_softly(pl_liquid_grid *g, const pl_liquid_solid *s, pl_liquid_soft_link *link,
-                            double x, double y)
-{
-    const double ux = s->x[1] - s->x[0], uy = s->y[1] - s->y[0];
-    const double vx = s->x[2] - s->x[0], vy = s->y[2] - s->y[0];
-    const double px = x - s->x[0], py = y - s->y[0], scale = 1 / (ux * vy - uy * vx);
-    const double b = (px * vy - py * vx) * scale, c = (ux * py - uy * px) * scale;
-    const double half_b = (link->upright ? -vx : vy) * scale / 2;
-    const double half_c = (link->upright ? ux : -uy) * scale / 2;
-    const double shares[3] = { 1 - b - c, b, c }, slopes[3] = { -half_b - half_c, half_b, half_c };
-    double speed = 0, swell = 0;
-    for (int i = 0; i < 3; ++i) {
-        const pl_liquid_node *n = &g->nodes[s->nodes[i]];
-        speed += shares[i] * (link->upright ? n->vy : n->vx);
-        swell += slopes[i] * (link->upright ? n->vy : n->vx);
-        link->nodes[i] = s->nodes[i];
-        link->shares[i] = (near_real)shares[i];
-        link->slopes[i] = (near_real)slopes[i];
-    }
-    add_motion(g, link, speed, swell);
-}
-
-static pl_liquid_ends ends_of(const pl_liquid_grid *g, const pl_liquid_soft_link *link)
-{
-    return pl_liquid_ends_of(g, link->cell, link->upright);
-}
-
-static void clear_sums(pl_liquid_grid *g)
-{
-    for (uint32_t i = 0; i < g->node_count; ++i) {
-        g->nodes[i].sum[0] = g->nodes[i].sum[1] = 0;
-    }
-}
-
-// The pushes of both sides of a face.
-static void add_to_sums(pl_liquid_grid *g, const pl_liquid_soft_link *link, double before,
-                        double behind)
-{
-    for (int k = 0; k < 3; ++k) {
-        g->nodes[link->nodes[k]].sum[link->upright ? 1 : 0] +=
-            (before - behind) * (double)link->shares[k] -
-            (before + behind) * (double)link->slopes[k];
-    }
-}
-
-// What pressures do to the sums of nodes: force over density h^2.
-static void sum_links(pl_liquid_grid *g, const near_real *p)
-{
-    clear_sums(g);
-    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
-        const pl_liquid_soft_link *link = &g->soft_links[i];
-        const pl_liquid_ends at = ends_of(g, link);
-        add_to_sums(g, link, (double)(link->part * p[at.before]),
-                    (double)(link->part * p[at.behind]));
-    }
-}
-
-// The middles of rings hand what they got to the nodes.
-static void share_sums(pl_liquid_grid *g)
-{
-    for (uint32_t r = 0; r < g->ring_count; ++r) {
-        const pl_liquid_ring *ring = &g->rings[r];
-        pl_liquid_node *middle = &g->nodes[ring->middle];
-        const uint32_t *list = pl_softbody_rings(&g->world->softbodies) + ring->first;
-        for (uint32_t k = 0; k < ring->count; ++k) {
-            pl_liquid_node *n = &g->nodes[ring->node + list[k]];
-            n->sum[0] += middle->sum[0] / ring->count;
-            n->sum[1] += middle->sum[1] / ring->count;
-        }
-        middle->sum[0] = middle->sum[1] = 0;
-    }
-}
-
-// The spin in the sums of one: velocities, or with `weighs` impulses.
-static double spin_of(const pl_liquid_grid *g, const pl_liquid_softbody *t, bool weighs)
-{
-    double sum = 0;
-    for (uint32_t i = t->first; i < t->first + t->count; ++i) {
-        const double x = g->nodes[i].x - t->x, y = g->nodes[i].y - t->y;
-        const double moment = x * g->nodes[i].sum[1] - y * g->nodes[i].sum[0];
-        sum += weighs ? moment : moment * mass_of(&g->world->softbodies, i);
-    }
-    return t->inertia > 0 ? sum / t->inertia : 0;
-}
-
-static void add_spin(pl_liquid_grid *g, const pl_liquid_softbody *t, bool weighs, double spin)
-{
-    for (uint32_t i = t->first; i < t->first + t->count; ++i) {
-        const double by = spin * (weighs ? mass_of(&g->world->softbodies, i) : 1);
-        g->nodes[i].sum[0] -= by * (g->nodes[i].y - t->y);
-        g->nodes[i].sum[1] += by * (g->nodes[i].x - t->x);
-    }
-}
-
-// What impulses of `push` times the sums add to velocities, by the matrix. Returns the product of both over push.
-static double answer_by_matrix(pl_liquid_grid *g, double push)
-{
-    const pl_soft_step *s = g->world->softbodies.step;
-    double *right = s->matrix.right, bend = 0;
-    memset(right, 0, 3 * (size_t)s->matrix.blocks * sizeof *right);
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_push(s, i, push * g->nodes[i].sum[0], push * g->nodes[i].sum[1]);
-    }
-    pl_soft_answer(s);
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        const uint32_t block = pl_soft_point_at(s, i)->block;
-        double *sum = g->nodes[i].sum;
-        const double x = block == PL_NONE ? 0 : right[3 * (size_t)block];
-        const double y = block == PL_NONE ? 0 : right[3 * (size_t)block + 1];
-        bend += sum[0] * x + sum[1] * y;
-        sum[0] = x;
-        sum[1] = y;
-    }
-    return bend;
-}
-
-// Sums times `push` as impulses; sums become what these add to velocities. Returns the product of both over push. What nothing holds turns
-// as a rigid body does: the matrix is that of nodes under stress which go straight on.
-static double answer(pl_liquid_grid *g, double push)
-{
-    share_sums(g);
-    for (uint32_t k = 0; k < g->softbody_count; ++k) {
-        pl_liquid_softbody *b = &g->softbodies[k];
-        b->spin = b->turns ? spin_of(g, b, true) : 0;
-        add_spin(g, b, true, -b->spin);
-    }
-    double bend = answer_by_matrix(g, push);
-    for (uint32_t k = 0; k < g->softbody_count; ++k) {
-        const pl_liquid_softbody *b = &g->softbodies[k];
-        add_spin(g, b, false, b->turns ? push * b->spin - spin_of(g, b, false) : 0);
-        bend += push * b->spin * b->spin * b->inertia;
-    }
-    for (uint32_t r = 0; r < g->ring_count; ++r) {
-        const pl_liquid_ring *ring = &g->rings[r];
-        double *sum = g->nodes[ring->middle].sum;
-        for (uint32_t k = 0; k < ring->count; ++k) {
-            sum[0] += ring_node(g, ring, k)->sum[0] / ring->count;
-            sum[1] += ring_node(g, ring, k)->sum[1] / ring->count;
-        }
-    }
-    return bend;
-}
-
-double pl_liquid_add_soft_links(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
-{
-    if (g->soft_link_count == 0) {
-        return 0;
-    }
-    sum_links(g, p);
-    const double bend = answer(g, push);
-    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
-        const pl_liquid_soft_link *link = &g->soft_links[i];
-        const pl_liquid_ends at = ends_of(g, link);
-        double speed = 0, swell = 0;
-        for (int k = 0; k < 3; ++k) {
-            const double v = g->nodes[link->nodes[k]].sum[link->upright ? 1 : 0];
-            speed += (double)link->shares[k] * v;
-            swell += (double)link->slopes[k] * v;
-        }
-        out[at.before] += link->part * (near_real)(speed - swell);
-        out[at.behind] -= link->part * (near_real)(speed + swell);
-    }
-    out[0] = 0;
-    return bend;
-}
-
-//---- motion --------------------------------------------------------------------------------------
-
-// The sums of nodes, times `push`, as impulses.
-static void push_sums(pl_liquid_grid *g, double push)
-{
-    share_sums(g);
-    for (uint32_t i = 0; i < g->node_count; ++i) {
-        pl_liquid_node *n = &g->nodes[i];
-        n->impulse[0] += push * n->sum[0];
-        n->impulse[1] += push * n->sum[1];
-    }
-    answer(g, push);
-    for (uint32_t i = 0; i < g->node_count; ++i) {
-        pl_liquid_node *n = &g->nodes[i];
-        n->vx += n->sum[0];
-        n->vy += n->sum[1];
-    }
-    see_middles(g);
-}
-
-void pl_liquid_push_nodes(pl_liquid_grid *g, double push)
-{
-    if (g->soft_link_count > 0) {
-        sum_links(g, g->vectors[PL_LIQUID_P]);
-        push_sums(g, push);
-    }
-}
-
-void pl_liquid_bear_nodes(pl_liquid_grid *g, double push, double fall_x, double fall_y)
-{
-    if (g->soft_link_count == 0) {
-        return;
-    }
-    clear_sums(g);
-    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
-        const pl_liquid_soft_link *link = &g->soft_links[i];
-        const pl_liquid_ends at = ends_of(g, link);
-        if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
-            const double light = (double)(link->upright ? pl_liquid_light_v(g, link->cell)
-                                                        : pl_liquid_light_u(g, link->cell));
-            add_to_sums(g, link, -(double)link->rest * (link->upright ? fall_y : fall_x) / light,
-                        0);
-        }
-    }
-    push_sums(g, push);
-}
-
-void pl_liquid_follow_nodes(pl_liquid_grid *g)
-{
-    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
-        const pl_liquid_soft_link *link = &g->soft_links[i];
-        double speed = 0, swell = 0;
-        for (int k = 0; k < 3; ++k) {
-            const pl_liquid_node *n = &g->nodes[link->nodes[k]];
-            const double more = link->upright ? n->vy - n->seen[1] : n->vx - n->seen[0];
-            speed += (double)link->shares[k] * more;
-            swell += (double)link->slopes[k] * more;
-        }
-        add_motion(g, link, speed, swell);
-    }
-    pl_liquid_see_nodes(g);
-}
-
-void pl_liquid_see_nodes(pl_liquid_grid *g)
-{
-    for (uint32_t i = 0; i < g->node_count; ++i) {
-        g->nodes[i].seen[0] = g->nodes[i].vx;
-        g->nodes[i].seen[1] = g->nodes[i].vy;
-    }
-}
+//---- what they get -------------------------------------------------------------------------------
 
 void pl_liquid_push_soft(plumb_world *world, const pl_liquid_grid *g, double dt)
 {

@@ -48,14 +48,14 @@ static bool many_near(const pl_liquid_scratch *scratch, const pl_liquid_tile *ti
     return false;
 }
 
-// A body may be pushed, or push.
+// A body, or a soft body, may be pushed, or push.
 static bool body_near(const pl_liquid_grid *g, const pl_liquid_tile *tile)
 {
     const double side = PL_LIQUID_SIDE, x = tile->x * side, y = tile->y * side;
     for (uint32_t i = 0; i < g->solid_count; ++i) {
         const pl_liquid_solid *s = &g->solids[i];
-        if (s->body != PL_LIQUID_NONE && s->low_x < x + 2 * side && s->high_x > x - side &&
-            s->low_y < y + 2 * side && s->high_y > y - side) {
+        if ((s->body != PL_LIQUID_NONE || s->soft) && s->low_x < x + 2 * side &&
+            s->high_x > x - side && s->low_y < y + 2 * side && s->high_y > y - side) {
             return true;
         }
     }
