@@ -18,7 +18,7 @@
 ///   air: gaps below PLUMB_WELD_DISTANCE are none. So it is with glass on what is opaque: a mirror behind glass.
 /// - At a surface between two media the larger `reflectance` of the two goes back before Fresnel has his share: half mirrors, silvered glass.
 /// - Segments and chains are mirrors on both sides. With a refractive index they are films without thickness: what they do not
-///   reflect goes straight on.
+///   reflect goes straight on. One that lies just in a face of glass may be missed: give the glass its reflectance.
 /// - One-way shapes are met from all sides, or as the filter says. Sensors are passed over; where the filter
 ///   sees them, those with a refractive index are met, such as the water of a pool, as if its surface were still.
 /// - Directions, angles and places are computed in double in all precisions, from the shapes as they are stored.
