@@ -41,7 +41,7 @@
     X("characters",        FORCES,      IF(pl_characters_wanted),    ONCE(pl_run_characters),                                ONCE,           \
       "grids, poses, velocities", "velocities, forces, characters, poses, rows, islands", ONE)                                               \
     X("liquid",            FORCES,      IF(pl_want_liquid),          ONCE(pl_run_liquid),                                    ONCE,           \
-      "liquid, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                                           \
+      "liquid, soft bodies, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                              \
     X("air",               FORCES,      IF(pl_want_air),             ONCE(pl_run_air),                                       ONCE,           \
       "air, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                                              \
     X("waking",            PAIRS,       IF(pl_want_waking),          ONCE(pl_run_waking),                                    REFRESHES,      \
@@ -182,7 +182,7 @@
     X("soft motion",       FINISH,      IF(pl_want_softbodies),      ONCE(pl_run_softbodies_motion),                         ONCE,           \
       "poses", "soft bodies, islands", ONE)                                                                                                  \
     X("liquid motion",     FINISH,      IF(pl_want_liquid),          ONCE(pl_run_liquid_motion),                             ONCE,           \
-      "velocities, masses", "liquid", ONE)                                                                                                                     \
+      "soft bodies, velocities, masses", "liquid", ONE)                                                                                      \
     X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
       "", "air", ONE)                                                                                                                        \
     X("wave motion",         FINISH,      IF(pl_want_waves),            ONCE(pl_run_wave_motion),                                ONCE,              \
