@@ -8,6 +8,9 @@
 // Reads: as the passes of step.c. Writes: their scratch, pushes. Cost: a substep; a solution is O(factors).
 #include "softbody/softbody.h"
 
+#define PASSES                                                                                     \
+    6 // of Newton's iteration: 34 without a bound, for what the liquid presses together springs open without it
+
 bool pl_soft_foresee(plumb_world *world, real dt)
 {
     if (!pl_softbodies_find(world, dt)) {
@@ -17,7 +20,7 @@ bool pl_soft_foresee(plumb_world *world, real dt)
     if (!pl_softbodies_plan(world)) {
         return false;
     }
-    pl_soft_newton(world, (double)dt);
+    pl_soft_newton(world, (double)dt, PASSES);
     return true;
 }
 

@@ -250,7 +250,7 @@ static double moved_mass(const pl_soft_step *s)
     return sum;
 }
 
-void pl_soft_newton(plumb_world *world, double h)
+void pl_soft_newton(plumb_world *world, double h, int passes)
 {
     pl_soft_step *s = world->softbodies.step;
     see_bodies(world, h * s->done);
@@ -266,7 +266,7 @@ void pl_soft_newton(plumb_world *world, double h)
     s->creep = CREEP * fall + 1e-9;
     bool settled = false;
     for (int round = 0; round < ROUNDS && (round == 0 || pl_soft_bind(s)); ++round) {
-        const int until = s->pass + PL_SOFT_PASSES;
+        const int until = s->pass + passes;
         double gain = INFINITY;
         while (s->pass < until && (gain > enough || (s->pass < 3 && s->contact_count > 0))) {
             gain = pass(world, h, enough);

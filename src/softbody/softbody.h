@@ -59,7 +59,7 @@ double pl_soft_add_pushes(const pl_soft_step *s, double h, bool fills);
 
 #define PL_SOFT_PASSES 48 // of a substep's iteration at most
 
-void pl_soft_newton(plumb_world *world, double h); // [s]
+void pl_soft_newton(plumb_world *world, double h, int passes); // [s]; at most so many a round
 
 //---- matrix.c ------------------------------------------------------------------------------------
 

@@ -401,7 +401,7 @@ void pl_softbodies_row(pl_substep *sub)
 {
     if (sub->world->softbodies.step->coupled > 0 &&
         sub->cluster == pl_clusters(&sub->world->solver)) {
-        pl_soft_newton(sub->world, (double)sub->h);
+        pl_soft_newton(sub->world, (double)sub->h, PL_SOFT_PASSES);
     }
 }
 
@@ -487,7 +487,7 @@ plumb_result pl_run_softbodies_motion(plumb_world *world, plumb_real dt)
     const pl_soft_step *s = world->softbodies.step;
     const near_real h = (near_real)(dt / (real)world->desc.substeps);
     while (s->done < (int)world->desc.substeps) {
-        pl_soft_newton(world, (double)h);
+        pl_soft_newton(world, (double)h, PL_SOFT_PASSES);
     }
     store_nodes(world);
     pl_soft_settle_edges(world);
