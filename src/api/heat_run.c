@@ -311,7 +311,8 @@ static bool is_over(const change *c, const pl_heat *heat)
     const double solid = c->mass > 0 ? 1 - (heat->molten + heat->burnt) / c->mass : 1;
     const double grown = heat->grown < 0 ? pl_decay_of(-heat->grown).left : 1;
     const uint32_t row = pl_body_row(c->world, c->body);
-    return changes && !(solid > 0 && sqrt(pl_area(c->world, row) * solid) * grown > heat->smallest);
+    return changes &&
+           !(solid > 0 && sqrt(pl_body_area(c->world, row) * solid) * grown > heat->smallest);
 }
 
 static plumb_result change_body(plumb_world *world, const char *fn, pl_heat *heat)

@@ -276,7 +276,7 @@ static void burn(plumb_world *world, pl_heat *heat, uint32_t row, pl_heat_body *
         !(mass > 0) || (world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
         return;
     }
-    const double area = pl_area(world, row), all = mass + heat->burnt;
+    const double area = pl_body_area(world, row), all = mass + heat->burnt;
     // d/dt sqrt(m) = -rho P rate / (2 sqrt(M)), rho = M / A: M and A, P are of the shapes as they are.
     const double root = sqrt(mass) - sqrt(all) * pl_perimeter(world, row) * heat->burn_rate * dt /
                                          (2 * (area > 0 ? area : 1));

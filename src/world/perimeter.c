@@ -58,7 +58,7 @@ double pl_perimeter(const plumb_world *world, uint32_t row)
     return sum;
 }
 
-double pl_area(const plumb_world *world, uint32_t row)
+double pl_body_area(const plumb_world *world, uint32_t row)
 {
     double sum = 0;
     for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE;
