@@ -183,6 +183,18 @@ static double least(double a, double b)
     return a < b ? a : b;
 }
 
+void pl_liquid_find_reach(pl_liquid_solid *s)
+{
+    s->low_x = s->low_y = INFINITY;
+    s->high_x = s->high_y = -INFINITY;
+    for (int i = 0; i < s->count; ++i) {
+        s->low_x = least(s->low_x, s->x[i] - s->radius);
+        s->low_y = least(s->low_y, s->y[i] - s->radius);
+        s->high_x = -least(-s->high_x, -s->x[i] - s->radius);
+        s->high_y = -least(-s->high_y, -s->y[i] - s->radius);
+    }
+}
+
 static void place_solid(const plumb_world *world, const pl_liquid_grid *g, pl_liquid_solid *s)
 {
     const uint32_t row = world->pieces.body[s->piece];
@@ -195,18 +207,13 @@ static void place_solid(const plumb_world *world, const pl_liquid_grid *g, pl_li
     const double y = body != NULL ? body->y : (double)b->center_y[row];
     plumb_convex shape;
     pl_piece_convex(world, s->piece, &shape);
-    s->low_x = s->low_y = INFINITY;
-    s->high_x = s->high_y = -INFINITY;
     for (int i = 0; i < s->count; ++i) {
         const double px = (double)shape.points[i].x - (double)b->local_x[row];
         const double py = (double)shape.points[i].y - (double)b->local_y[row];
         s->x[i] = (x + c * px - sine * py) * scale;
         s->y[i] = (y + sine * px + c * py) * scale;
-        s->low_x = least(s->low_x, s->x[i] - s->radius);
-        s->low_y = least(s->low_y, s->y[i] - s->radius);
-        s->high_x = -least(-s->high_x, -s->x[i] - s->radius);
-        s->high_y = -least(-s->high_y, -s->y[i] - s->radius);
     }
+    pl_liquid_find_reach(s);
 }
 
 void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, double dt)

@@ -90,8 +90,7 @@ void pl_liquid_bear_rests(pl_liquid_grid *g, double push, double fall_x, double 
         const pl_liquid_link *link = &g->links[i];
         const pl_liquid_ends at = ends_of(g, link);
         if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
-            const double light = (double)(link->upright ? pl_liquid_light_v(g, link->cell)
-                                                        : pl_liquid_light_u(g, link->cell));
+            const double light = (double)pl_liquid_light_at(g, link->cell, link->upright);
             const double lift =
                 -push * (double)link->rest * (link->upright ? fall_y : fall_x) / light;
             push_body(&g->bodies[link->body], link->upright ? 0 : lift, link->upright ? lift : 0,

@@ -11,9 +11,10 @@
 
 #define PL_LIQUID_NONE UINT32_MAX
 
-#define PL_LIQUID_SPEED 1e6 // [m/s] of particles, and of what pushes them, at most
-#define PL_LIQUID_SLOPE 1e9 // [1/s] of their gradients
-#define PL_LIQUID_RATIO 1e3 // of densities of phases, at most
+#define PL_LIQUID_SPEED 1e6  // [m/s] of particles, and of what pushes them, at most
+#define PL_LIQUID_SLOPE 1e9  // [1/s] of their gradients
+#define PL_LIQUID_FORCE 1e30 // [N] on bodies and nodes, that float can still multiply by
+#define PL_LIQUID_RATIO 1e3  // of densities of phases, at most
 
 #define PL_LIQUID_MOST_VISCOSITY ((plumb_real)1e9)
 
@@ -225,6 +226,11 @@ static inline near_real pl_liquid_light_v(const pl_liquid_grid *grid, uint32_t c
     return grid->mixture != NULL ? grid->mixture->light_v[cell] : 1;
 }
 
+static inline near_real pl_liquid_light_at(const pl_liquid_grid *grid, uint32_t cell, bool upright)
+{
+    return upright ? pl_liquid_light_v(grid, cell) : pl_liquid_light_u(grid, cell);
+}
+
 typedef struct pl_liquid_place {
     double x, y; // [cells]
 } pl_liquid_place;
@@ -257,6 +263,8 @@ bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_li
                            real dt);
 // Gravity and forces on bodies in dt.
 void pl_liquid_pull_bodies(plumb_world *world, real dt);
+// The box of a solid, from its corners.
+void pl_liquid_find_reach(pl_liquid_solid *solid);
 // Bodies go on by their velocities for dt, and solids with them.
 void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, double dt);
 // Impulses of the step become forces on bodies, and back. Room was made by pl_liquid_find_solids.

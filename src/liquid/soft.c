@@ -12,7 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST   1e30 // [N], [m/s^2]
 #define LOAD   0.25 // of a layer of cells
 #define FOLLOW 1.0  // of the step: dampers towards what the liquid has found (softbody/pushes.c)
 
@@ -246,10 +245,11 @@ bool pl_liquid_find_soft(plumb_world *world, pl_liquid_scratch *scratch, pl_liqu
     for (uint32_t i = 0; i < all->node_count; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
         pl_liquid_node *to = &g->nodes[i];
-        to->x = pl_soft_exact(n->position.x, n->position_rest.x);
-        to->y = pl_soft_exact(n->position.y, n->position_rest.y);
-        to->vx = pl_soft_exact(n->velocity.x, n->velocity_rest.x);
-        to->vy = pl_soft_exact(n->velocity.y, n->velocity_rest.y);
+        double place[2], velocity[2];
+        pl_soft_node_place(n, place);
+        pl_soft_node_velocity(n, velocity);
+        to->x = place[0], to->y = place[1];
+        to->vx = velocity[0], to->vy = velocity[1];
     }
     pl_liquid_see_middles(g);
     see_softbodies(g);
@@ -307,15 +307,17 @@ bool pl_liquid_foresee_soft(plumb_world *world, pl_liquid_grid *g, real dt)
     if (g->softbody_count == 0) {
         return true;
     }
+    const double density = (double)pl_liquid_desc(&world->liquid)->density;
     pl_soft_shove *pushes = pl_soft_make_pushes(world);
-    if (pushes != NULL) {
-        load(g, (double)pl_liquid_desc(&world->liquid)->density, pushes);
+    if (pushes == NULL) {
+        return false;
     }
+    load(g, density, pushes);
     see_softbodies(g);
-    for (uint32_t k = 0; k < g->softbody_count && pushes != NULL; ++k) {
-        hold(g, &g->softbodies[k], (double)pl_liquid_desc(&world->liquid)->density, pushes);
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        hold(g, &g->softbodies[k], density, pushes);
     }
-    if (pushes == NULL || !pl_soft_foresee(world, dt)) {
+    if (!pl_soft_foresee(world, dt)) {
         return false;
     }
     const pl_soft_step *s = world->softbodies.step;
@@ -370,8 +372,6 @@ void pl_liquid_place_nodes(pl_liquid_grid *g, double dt)
 void pl_liquid_place_triangle(const pl_liquid_grid *g, pl_liquid_solid *s)
 {
     const double scale = 1 / (double)g->h;
-    s->low_x = s->low_y = INFINITY;
-    s->high_x = s->high_y = -INFINITY;
     for (int i = 0; i < 3; ++i) {
         s->x[i] = g->nodes[s->nodes[i]].x * scale;
         s->y[i] = g->nodes[s->nodes[i]].y * scale;
@@ -379,12 +379,7 @@ void pl_liquid_place_triangle(const pl_liquid_grid *g, pl_liquid_solid *s)
     const double area =
         (s->x[1] - s->x[0]) * (s->y[2] - s->y[0]) - (s->y[1] - s->y[0]) * (s->x[2] - s->x[0]);
     s->count = area > 0 ? 3 : 0;
-    for (int i = 0; i < s->count; ++i) {
-        s->low_x = least(s->low_x, s->x[i]);
-        s->low_y = least(s->low_y, s->y[i]);
-        s->high_x = -least(-s->high_x, -s->x[i]);
-        s->high_y = -least(-s->high_y, -s->y[i]);
-    }
+    pl_liquid_find_reach(s);
 }
 
 //---- what they get -------------------------------------------------------------------------------
@@ -396,13 +391,12 @@ void pl_liquid_push_soft(plumb_world *world, const pl_liquid_grid *g, double dt)
         const pl_liquid_softbody *b = &g->softbodies[k];
         for (uint32_t i = b->first; i < b->first + b->count; ++i) {
             const pl_liquid_node *n = &g->nodes[i];
-            const plumb_softbody_node *before = &pl_softbody_nodes(&world->softbodies)[i];
-            const double vx = pl_soft_exact(before->velocity.x, before->velocity_rest.x);
-            const double vy = pl_soft_exact(before->velocity.y, before->velocity_rest.y);
-            pushes[i].x = pl_liquid_held(n->impulse[0] / dt, MOST);
-            pushes[i].y = pl_liquid_held(n->impulse[1] / dt, MOST);
-            pushes[i].ax = pl_liquid_held((n->vx - vx) / dt, MOST);
-            pushes[i].ay = pl_liquid_held((n->vy - vy) / dt, MOST);
+            double before[2];
+            pl_soft_node_velocity(&pl_softbody_nodes(&world->softbodies)[i], before);
+            pushes[i].x = pl_liquid_held(n->impulse[0] / dt, PL_LIQUID_FORCE);
+            pushes[i].y = pl_liquid_held(n->impulse[1] / dt, PL_LIQUID_FORCE);
+            pushes[i].ax = pl_liquid_held((n->vx - before[0]) / dt, PL_LIQUID_FORCE);
+            pushes[i].ay = pl_liquid_held((n->vy - before[1]) / dt, PL_LIQUID_FORCE);
             pushes[i].follow = FOLLOW * dt;
         }
     }

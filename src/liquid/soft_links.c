@@ -51,6 +51,21 @@ static pl_liquid_ends ends_of(const pl_liquid_grid *g, const pl_liquid_soft_link
     return pl_liquid_ends_of(g, link->cell, link->upright);
 }
 
+// What velocities of its nodes make of a link.
+typedef struct motion {
+    double speed, swell;
+} motion;
+
+static motion motion_of(const pl_liquid_soft_link *link, const double v[3])
+{
+    motion m = { 0, 0 };
+    for (int k = 0; k < 3; ++k) {
+        m.speed += (double)link->shares[k] * v[k];
+        m.swell += (double)link->slopes[k] * v[k];
+    }
+    return m;
+}
+
 static void clear_sums(pl_liquid_grid *g)
 {
     for (uint32_t i = 0; i < g->node_count; ++i) {
@@ -176,14 +191,13 @@ double pl_liquid_add_soft_links(pl_liquid_grid *g, const near_real *p, near_real
     for (uint32_t i = 0; i < g->soft_link_count; ++i) {
         const pl_liquid_soft_link *link = &g->soft_links[i];
         const pl_liquid_ends at = ends_of(g, link);
-        double speed = 0, swell = 0;
+        double v[3];
         for (int k = 0; k < 3; ++k) {
-            const double v = g->nodes[link->nodes[k]].sum[link->upright ? 1 : 0];
-            speed += (double)link->shares[k] * v;
-            swell += (double)link->slopes[k] * v;
+            v[k] = g->nodes[link->nodes[k]].sum[link->upright ? 1 : 0];
         }
-        out[at.before] += link->part * (near_real)(speed - swell);
-        out[at.behind] -= link->part * (near_real)(speed + swell);
+        const motion m = motion_of(link, v);
+        out[at.before] += link->part * (near_real)(m.speed - m.swell);
+        out[at.behind] -= link->part * (near_real)(m.speed + m.swell);
     }
     out[0] = 0;
     return bend;
@@ -227,8 +241,7 @@ void pl_liquid_bear_nodes(pl_liquid_grid *g, double push, double fall_x, double 
         const pl_liquid_soft_link *link = &g->soft_links[i];
         const pl_liquid_ends at = ends_of(g, link);
         if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
-            const double light = (double)(link->upright ? pl_liquid_light_v(g, link->cell)
-                                                        : pl_liquid_light_u(g, link->cell));
+            const double light = (double)pl_liquid_light_at(g, link->cell, link->upright);
             const double half = -(double)link->rest * (link->upright ? fall_y : fall_x) / light / 2;
             add_to_sums(g, link, half, -half);
         }
@@ -240,14 +253,13 @@ void pl_liquid_follow_nodes(pl_liquid_grid *g)
 {
     for (uint32_t i = 0; i < g->soft_link_count; ++i) {
         const pl_liquid_soft_link *link = &g->soft_links[i];
-        double speed = 0, swell = 0;
+        double v[3];
         for (int k = 0; k < 3; ++k) {
             const pl_liquid_node *n = &g->nodes[link->nodes[k]];
-            const double more = link->upright ? n->vy - n->seen[1] : n->vx - n->seen[0];
-            speed += (double)link->shares[k] * more;
-            swell += (double)link->slopes[k] * more;
+            v[k] = link->upright ? n->vy - n->seen[1] : n->vx - n->seen[0];
         }
-        add_motion(g, link, speed, swell);
+        const motion m = motion_of(link, v);
+        add_motion(g, link, m.speed, m.swell);
     }
     pl_liquid_see_nodes(g);
 }

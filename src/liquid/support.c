@@ -13,8 +13,6 @@
 
 #include <string.h>
 
-#define MOST 1e30 // [N] that float can still multiply by
-
 static uint64_t key_of(plumb_entity entity)
 {
     return pl_key(entity.index, entity.generation);
@@ -75,7 +73,7 @@ bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid)
 // [N] from how much faster it is than expected.
 static double force_of(double held, double more, double inverse, double dt)
 {
-    return inverse > 0 ? pl_liquid_held(held + more / (inverse * dt), MOST) : 0;
+    return inverse > 0 ? pl_liquid_held(held + more / (inverse * dt), PL_LIQUID_FORCE) : 0;
 }
 
 static pl_liquid_support note(const plumb_world *world, plumb_entity entity)

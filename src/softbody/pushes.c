@@ -88,11 +88,11 @@ static void see_ways(const plumb_softbody_node *nodes, pl_soft_point *points,
                      const pl_soft_shove *pushes, uint32_t count, double since)
 {
     for (uint32_t i = 0; i < count; ++i) {
+        double velocity[2];
+        pl_soft_node_velocity(&nodes[i], velocity);
         points[i].follow = pushes[i].follow;
-        points[i].way_x =
-            pl_soft_exact(nodes[i].velocity.x, nodes[i].velocity_rest.x) + since * pushes[i].ax;
-        points[i].way_y =
-            pl_soft_exact(nodes[i].velocity.y, nodes[i].velocity_rest.y) + since * pushes[i].ay;
+        points[i].way_x = velocity[0] + since * pushes[i].ax;
+        points[i].way_y = velocity[1] + since * pushes[i].ay;
     }
 }
 

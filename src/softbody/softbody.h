@@ -25,6 +25,12 @@ static inline void pl_soft_node_place(const plumb_softbody_node *n, double out[2
     out[1] = pl_soft_exact(n->position.y, n->position_rest.y);
 }
 
+static inline void pl_soft_node_velocity(const plumb_softbody_node *n, double out[2])
+{
+    out[0] = pl_soft_exact(n->velocity.x, n->velocity_rest.x);
+    out[1] = pl_soft_exact(n->velocity.y, n->velocity_rest.y);
+}
+
 //---- step.c --------------------------------------------------------------------------------------
 
 // Its scratch, if there is none. False when out of memory.

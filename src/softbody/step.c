@@ -66,11 +66,13 @@ static double mass_of(const pl_softbodies *all, const pl_softbody *item, uint32_
     return sum;
 }
 
+// Adds to the mass of all nodes.
 static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, uint32_t first)
 {
     const pl_soft_shove *pushes = all->step->pushed ? all->step->pushes.data : NULL;
-    double heavy = pushes != NULL ? pushes[first].heavy : 0;
-    heavy += mass_of(all, item, first);
+    const double mass = mass_of(all, item, first);
+    const double heavy = (pushes != NULL ? pushes[first].heavy : 0) + mass;
+    all->step->mass += mass;
     for (uint32_t i = first; i < first + item->nodes; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
         points_of(all->step)[i] =
@@ -124,7 +126,6 @@ static bool gather(plumb_world *world)
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
         gather_nodes(all, item, at.node);
-        s->mass += mass_of(all, item, at.node);
         if (!gather_pins(world, item, at)) {
             return false;
         }
