@@ -7,6 +7,12 @@
 // Reads, writes: solver bodies, impulses. Order: as schema/passes.h says. Cost: newton.c's.
 #include "exact/exact.h"
 #include "joints/law.h"
+#include "math/compare.h"
+
+#include <math.h>
+
+// Share of the push speed, from which on what undoes errors leaves nothing in the velocities.
+#define UNDONE 0.01
 
 static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
 {
@@ -31,11 +37,14 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .step = vectors + 4 * n,
                               .kick = vectors + 5 * n,
                               .full = vectors + 6 * n,
+                              .best = vectors + 7 * n,
+                              .brisk = vectors + 8 * n,
                               .h = s->h,
                               .since = s->solving->call.since,
                               .inv_dt = (double)s->solving->call.inv_dt,
                               .first = s->first,
-                              .sweep = sweep };
+                              .sweep = sweep,
+                              .recovery = 1 };
 }
 
 static bool is_warm(const pl_substep *s)
@@ -86,9 +95,19 @@ static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
            pl_joint_inertia(pull[1], s->h, pl_one_own_inertia(s->world, j, 1)) > 0;
 }
 
+// What undoes an error of the joint or contact is a speed to be reckoned with.
+static bool is_undone(const pl_exact_system *s, const pl_exact_item *item)
+{
+    double most = 0;
+    for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+        most = pl_greater(most, s->rows[k].in_force ? fabs(s->rows[k].undone) : 0);
+    }
+    return most > UNDONE * (double)s->world->desc.push_speed;
+}
+
 // What joints and contacts that turn gave stays in the velocities: relaxed along where they point then, the way of the substep is a chord between
 // two places on the circle, left and reached at equal angles (RATTLE, Andersen 1983), and turning costs no energy. Not so
-// where links are tense, which would make energy, and where errors could not be undone: there springs alone give, as they act
+// where links are tense, which would make energy, and where errors could not be undone, or are: there springs alone give, as they act
 // once a substep, and the rest is solved anew.
 static void keep_given(const pl_exact_system *s)
 {
@@ -98,7 +117,7 @@ static void keep_given(const pl_exact_system *s)
             (item->turning == PL_NONE || !s->turnings[item->turning].turns)) {
             continue;
         }
-        const bool stays = !s->missed && !is_tense(s, item);
+        const bool stays = !s->missed && !is_tense(s, item) && !is_undone(s, item);
         s->rows[item->first_row].stays = stays;
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
             const pl_exact_row *r = &s->rows[k];
@@ -183,6 +202,62 @@ static void begin(const pl_exact_system *s, bool warm)
     }
 }
 
+//---- errors undone no faster than they may -----------------------------------------------------------------
+
+// [m/s] the largest change of a body between two sets of velocities.
+static double most_between(const pl_exact_system *s, const double *from, const double *to)
+{
+    double most = 0;
+    for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; k += 3) {
+        const double x = to[k] - from[k], y = to[k + 1] - from[k + 1];
+        most = pl_greater(most, x * x + y * y);
+    }
+    return sqrt(most);
+}
+
+// Whether what errors ask for may add up to more than the push speed: rows in a line do, like boxes of a pile that begins with overlaps, or
+// links of a chain that is torn.
+static bool is_brisk(const pl_exact_system *s)
+{
+    double sum = 0;
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        sum += s->rows[k].in_force ? fabs(s->rows[k].undone) : 0;
+    }
+    const double push = (double)s->world->desc.push_speed;
+    return sum > push && most_between(s, s->base, s->velocity) > push;
+}
+
+// The same without undoing anything, and of the difference as much as moves no body by more than the push speed. What obeys the
+// rows of both sets obeys those of any set between them.
+static void slow_down(pl_exact_system *s)
+{
+    copy(s, s->brisk, s->velocity);
+    copy(s, s->velocity, s->base);
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        pl_exact_row *r = &s->rows[k];
+        r->brisk = r->next;
+        r->target -= r->undone;
+        r->impulse = r->next = r->in_force ? r->before / 2 : 0;
+        r->shift = r->gap = 0;
+    }
+    push_rows(s, s->velocity, 1);
+    s->recovery = 0;
+    pl_exact_solve(s);
+    s->recovery = 1;
+    s->missed = true; // nothing of it stays
+    const double push = (double)s->world->desc.push_speed;
+    const double most = most_between(s, s->velocity, s->brisk);
+    const double share = most > push ? push / most : 1;
+    for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
+        s->velocity[k] += share * (s->brisk[k] - s->velocity[k]);
+    }
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        pl_exact_row *r = &s->rows[k];
+        r->next += share * (r->brisk - r->next);
+        r->impulse = r->next;
+    }
+}
+
 static void solve_island(pl_exact_system *s, bool warm)
 {
     take_velocities(s);
@@ -192,6 +267,9 @@ static void solve_island(pl_exact_system *s, bool warm)
     begin(s, warm);
     push_rows(s, s->velocity, 1);
     pl_exact_solve(s);
+    if (s->sweep == PL_SWEEP_PULL && is_brisk(s)) {
+        slow_down(s);
+    }
     s->island->missed = s->missed;
     pl_exact_keep(s);
     give_velocities(s);

@@ -6,7 +6,7 @@
 #include "solver/substep.h"
 #include "world/state.h"
 
-#define PL_EXACT_VECTORS 7 // of a system
+#define PL_EXACT_VECTORS 9 // of a system
 
 // A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
 // `factor` times the load, the impulses of the `leads` rows that lie before it in the contact.
@@ -14,6 +14,7 @@ typedef struct pl_exact_row {
     const pl_exact_item *item; // the contact or joint that it is of
     double j[6];               // of A's vx, vy, w, then of B's
     double target;             // [m/s], [rad/s]
+    double undone;             // of the target: what undoes an error
     double give;               // [1/kg] of a spring
     double low,
         high;      // [N s]; of friction and rolling resistance, low is the middle of what it may be
@@ -21,6 +22,8 @@ typedef struct pl_exact_row {
     double mass;   // [kg] effective
     double impulse;    // [N s] as known
     double next;       // [N s] what follows from the velocities of the moment
+    double best;       // [N s] the same in the best round so far
+    double brisk;      // [N s] of velocities that undo errors too fast
     double weight;     // [kg] -d next / d (J v) of its own
     double slope;      // the same of each lead's J v, as a share of the lead's weight
     double kept;       // [N s] given to the velocities by the sweep that pulled, and stays
@@ -62,13 +65,15 @@ typedef struct pl_exact_system {
     double *above, *below;
     double *diagonal;
     // Three a node: velocities of the moment, without any impulse of the rows, where a round began; F; Newton's step; half of
-    // what forces do in the substep; the velocities that the sweep that relaxes begins with.
-    double *velocity, *base, *start, *change, *step, *kick, *full;
+    // what forces do in the substep; the velocities that the sweep that relaxes begins with; those of the best round;
+    // those that undo errors too fast.
+    double *velocity, *base, *start, *change, *step, *kick, *full, *best, *brisk;
     near_real h, since; // [s] the substep; from the start of the step to its own
     double inv_dt;      // [1/s] of the step
     bool first;         // substep of it
     pl_joint_sweep sweep;
-    bool missed; // the tolerance
+    double recovery; // share of what errors ask for: 1
+    bool missed;     // the tolerance
 } pl_exact_system;
 
 // Of an item that is a contact.
@@ -126,6 +131,9 @@ typedef struct pl_exact_newton {
     double slope;     // of the potential, where the step begins
     double length;    // of the last step of the shifts, in steps by slip alone
     int shifts;       // such steps so far, in a row
+    int rounds;       // that missed
+    double merit;     // [m/s] of the best of them, the less the better
+    double left;      // [-] of the scale, likewise
     bool convex;      // see evaluate_cone
 } pl_exact_newton;
 

@@ -35,6 +35,8 @@
 #define PULL_STALLS 2
 #define SHORTENINGS 6
 #define BISECTIONS  40
+// To move, where errors are undone: a speed that bodies take on counts as so much of one that is left.
+#define RELUCTANCE 0.01
 
 //---- a round -----------------------------------------------------------------------------------------------
 
@@ -255,6 +257,47 @@ static double heaviest(const pl_exact_system *s, double *ratio)
     return most;
 }
 
+// [m/s] the largest change of a body.
+static double most_change(const pl_exact_system *s)
+{
+    double most = 0;
+    for (size_t k = 3 * (size_t)s->island->first_node; k < 3 * (size_t)s->island->end_node;
+         k += 3) {
+        most = pl_greater(most, fabs(s->velocity[k] - s->base[k]));
+        most = pl_greater(most, fabs(s->velocity[k + 1] - s->base[k + 1]));
+    }
+    return most;
+}
+
+// Rounds need not come nearer: where bars hang in a line, undoing their errors to the last digit asks for any speed across it, and
+// what that bends is the error of the next round. The best of the rounds is kept; where errors are undone, that which leaves least
+// of rows that bear for the way that bodies go for it.
+static void keep_best(pl_exact_newton *n, double left, double loads)
+{
+    const pl_exact_system *s = n->s;
+    const bool pulls = s->sweep == PL_SWEEP_PULL;
+    const double merit = pulls ? loads * n->scale + RELUCTANCE * most_change(s) : left;
+    if (n->rounds++ > 0 && merit >= n->merit) {
+        return;
+    }
+    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
+    memcpy(s->best + first, s->velocity + first, (end - first) * sizeof(double));
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        s->rows[k].best = s->rows[k].next;
+    }
+    n->merit = merit, n->left = left;
+}
+
+static void take_best(const pl_exact_newton *n)
+{
+    const pl_exact_system *s = n->s;
+    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
+    memcpy(s->velocity + first, s->best + first, (end - first) * sizeof(double));
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        s->rows[k].impulse = s->rows[k].next = s->rows[k].best;
+    }
+}
+
 // Nothing settles: friction as cones without more, from the impulses before. What Newton's steps come to keeps momentum, settled
 // or not. That no body changes by much more than what there was to undo, the change of all is shortened; impulses that do not
 // belong to it are not carried on.
@@ -270,11 +313,7 @@ static void give_in(pl_exact_newton *n)
     n->convex = true;
     n->stiffness = STIFFNESS;
     settle(n, 4 * NEWTONS);
-    double most = 0;
-    for (size_t k = first; k < end; k += 3) {
-        most = pl_greater(most, fabs(s->velocity[k] - s->base[k]));
-        most = pl_greater(most, fabs(s->velocity[k + 1] - s->base[k + 1]));
-    }
+    const double most = most_change(s);
     const double share = most > MOST_CHANGE * n->scale ? MOST_CHANGE * n->scale / most : 1;
     for (size_t k = first; k < end; ++k) {
         s->velocity[k] = s->base[k] + share * (s->velocity[k] - s->base[k]);
@@ -317,6 +356,7 @@ void pl_exact_solve(pl_exact_system *s)
         if (left <= tolerance) {
             break;
         }
+        keep_best(&n, left, loads);
         stalled = left < 0.7 * best || n.stiffness < due ? 0 : stalled + 1;
         best = left < best ? left : best;
         if (settled && loads > tolerance &&
@@ -326,6 +366,10 @@ void pl_exact_solve(pl_exact_system *s)
         before = loads;
     }
     s->missed = left > tolerance;
+    if (s->missed) {
+        take_best(&n);
+        left = n.left;
+    }
     s->island->solved |= left <= OFF;
     if (left > FAR_OFF && !unasked) {
         give_in(&n);

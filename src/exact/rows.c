@@ -47,7 +47,8 @@ static double target_of(const pl_exact_system *s, double apart)
 {
     const double rate = apart / (double)s->h, back = -RECOVERY * rate;
     const double push = (double)s->world->desc.push_speed;
-    return apart > 0 ? -rate : s->sweep == PL_SWEEP_RELAX ? 0 : back < push ? back : push;
+    const double most = s->sweep == PL_SWEEP_RELAX ? 0 : s->recovery;
+    return apart > 0 ? -rate : most * (back < push ? back : push);
 }
 
 static void fill_normal(const pl_exact_system *s, const pl_classic_contact *m,
@@ -57,6 +58,7 @@ static void fill_normal(const pl_exact_system *s, const pl_classic_contact *m,
     *r = (pl_exact_row){ .j = { -(double)m->nx, -(double)m->ny, -(double)p->ran, (double)m->nx,
                                 (double)m->ny, (double)p->rbn },
                          .target = target_of(s, apart),
+                         .undone = apart < 0 ? target_of(s, apart) : 0,
                          .low = -pull - kept,
                          .high = (double)PL_UNBOUNDED,
                          .kept = kept,
@@ -149,6 +151,16 @@ static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
 
 //---- joints ----------------------------------------------------------------------------------------------
 
+// What a row strives for; what undoes errors counts by the share of the moment.
+static pl_row_law law_of(const pl_exact_system *s, const pl_lone *l, int i, pl_joint_sweep sweep)
+{
+    pl_row_law law = pl_row_law_of(l, i, sweep, false);
+    if (pl_row_is_rigid(&l->joint->rows.row[i])) {
+        law.target *= s->recovery;
+    }
+    return law;
+}
+
 static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
 {
     const bool stays = s->sweep == PL_SWEEP_RELAX && s->rows[item->first_row].stays;
@@ -171,13 +183,14 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
         }
         const pl_row *r = &l.joint->rows.row[i];
         const bool spring = pl_row_is_spring(r); // gives in both sweeps: spring.c
-        const pl_row_law law = pl_row_law_of(&l, i, spring ? PL_SWEEP_PULL : s->sweep, false);
+        const pl_row_law law = law_of(s, &l, i, spring ? PL_SWEEP_PULL : s->sweep);
         const double impulse = (double)l.joint->impulse[i], share = share_of(s);
         const bool keeps = stays || (spring && s->sweep == PL_SWEEP_RELAX);
         const double kept = keeps ? impulse : 0;
         *out = (pl_exact_row){ .j = { (double)r->ax, (double)r->ay, (double)r->aw, (double)r->bx,
                                       (double)r->by, (double)r->bw },
                                .target = law.target,
+                               .undone = pl_row_is_rigid(r) ? law.target : 0,
                                .give = law.give,
                                .low = share * law.low - kept,
                                .high = share * law.high - kept,
@@ -222,7 +235,7 @@ static void bend_point(const pl_exact_system *s, const pl_exact_item *item, cons
     }
     for (uint32_t i = 0; i < 2; ++i) {
         s->rows[item->first_row + i].target =
-            pl_row_law_of(l, (int)i, s->sweep, false).target - (double)arc[i];
+            law_of(s, l, (int)i, s->sweep).target - (double)arc[i];
     }
 }
 
@@ -265,7 +278,7 @@ static void bend_rows(const pl_exact_system *s, const pl_exact_item *item, const
         const double most = fastest(r, v), turn = 4 * fabs(arc);
         const double share =
             turn < most ? 1 - turn * turn * turn * turn / (most * most * most * most) : 0;
-        r->target = pl_row_law_of(l, i, s->sweep, false).target - share * arc;
+        r->target = law_of(s, l, i, s->sweep).target - share * arc;
     }
 }
 
