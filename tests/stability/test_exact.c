@@ -323,7 +323,7 @@ static void errors_are_undone_gently(void **state)
     print_message("60 worlds: errors undone at up to %.3g m/s; then %.1g m/s, %.1g m off, %.1g m "
                   "left\n",
                   brisk, left, gone, open);
-    assert_true(brisk < 6.01); // the push speed; where each row had that for itself: 144 m/s
+    assert_true(brisk < 6.01); // the push speed; where each row had that for itself: 191 m/s
     assert_true(left < 2e-3);
     assert_true(gone < 1e-4);
     assert_true(open < 1e-3);
