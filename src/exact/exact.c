@@ -105,10 +105,10 @@ static bool is_undone(const pl_exact_system *s, const pl_exact_item *item)
     return most > UNDONE * (double)s->world->desc.push_speed;
 }
 
-// What joints and contacts that turn gave stays in the velocities: relaxed along where they point then, the way of the substep is a chord between
-// two places on the circle, left and reached at equal angles (RATTLE, Andersen 1983), and turning costs no energy. Not so
-// where links are tense, which would make energy, and where errors could not be undone, or are: there springs alone give, as they act
-// once a substep, and the rest is solved anew.
+// What joints and contacts that turn gave stays in the velocities: relaxed along where they point then, the way of the
+// substep is a chord between two places on the circle, left and reached at equal angles (RATTLE, Andersen 1983), and turning
+// costs no energy. Not so where links are tense, which would make energy, and where errors could not be undone, or are: there
+// springs alone give, as they act once a substep, and the rest is solved anew.
 static void keep_given(const pl_exact_system *s)
 {
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
@@ -215,8 +215,8 @@ static double most_between(const pl_exact_system *s, const double *from, const d
     return sqrt(most);
 }
 
-// Whether what errors ask for may add up to more than the push speed: rows in a line do, like boxes of a pile that begins with overlaps, or
-// links of a chain that is torn.
+// Whether what errors ask for adds up to more than the push speed: rows in a line do, like boxes of a pile that begins with
+// overlaps, or links of a chain that is torn.
 static bool is_brisk(const pl_exact_system *s)
 {
     double sum = 0;
@@ -227,8 +227,8 @@ static bool is_brisk(const pl_exact_system *s)
     return sum > push && most_between(s, s->base, s->velocity) > push;
 }
 
-// The same without undoing anything, and of the difference as much as moves no body by more than the push speed. What obeys the
-// rows of both sets obeys those of any set between them.
+// Velocities without undoing anything, and of what undoing adds to them as much as moves no body by more than the push
+// speed: rows are bounds and lines, so what lies between two sets that obey them obeys them, too.
 static void slow_down(pl_exact_system *s)
 {
     copy(s, s->brisk, s->velocity);

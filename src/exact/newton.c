@@ -269,9 +269,9 @@ static double most_change(const pl_exact_system *s)
     return most;
 }
 
-// Rounds need not come nearer: where bars hang in a line, undoing their errors to the last digit asks for any speed across it, and
-// what that bends is the error of the next round. The best of the rounds is kept; where errors are undone, that which leaves least
-// of rows that bear for the way that bodies go for it.
+// Rounds need not come nearer: where bars hang in a line, undoing their errors to the last digit asks for any speed across
+// it, and what that bends is the error of the next round. The best of the rounds is kept; where errors are undone, that which
+// leaves least of rows that bear for the way that bodies go for it.
 static void keep_best(pl_exact_newton *n, double left, double loads)
 {
     const pl_exact_system *s = n->s;
