@@ -69,7 +69,7 @@ static void pull_one(const pl_law_system *system, const pl_law_state *states, ui
         const pl_law_now *law = &system->laws[k];
         const plumb_law_desc *d = law->desc;
         const double hold = pl_law_hold_of(d, body);
-        const bool is_elsewhere = system->alone && law->member != PL_NONE; // what takes the reaction
+        const bool is_elsewhere = system->alone && law->member != PL_NONE;
         if (hold == 0 || is_elsewhere || law->member == i || d->kind == PLUMB_LAW_MAGNETIC ||
             d->kind == PLUMB_LAW_MUTUAL || d->priority < floor[d->hold] ||
             (!system->replaces && pl_law_is_endless(d))) {
