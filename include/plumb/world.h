@@ -120,7 +120,7 @@ PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
 /// dt 0 is for games that pause and for editors: it carries out commands and brings contacts, sensor overlaps,
 /// grids and events up to date with what was created, destroyed, moved, filtered or enabled since the last step;
 /// what that touches in its sleep wakes. Nothing moves, no velocity, force, impulse, clock or count of steps
-/// changes, nobody falls asleep, nothing hits or breaks. Of systems only those of PLUMB_PHASE_CONTACTS run (with
+/// changes, nobody falls asleep, nothing hits or breaks, melts or grows. Of systems only those of PLUMB_PHASE_CONTACTS run (with
 /// dt 0), if something is to be looked at. Where nothing was edited, it costs nothing, contacts stay as the last
 /// step left them, and the next step gives the same bits as without it. A recording plays it back.
 ///

@@ -182,7 +182,7 @@ WANT(pl_want_breaking)
 RESERVE(pl_breaking_prepare)
 WORLD_DT(pl_breaking_find)
 FREE(pl_fracture_free, pl_fracture)
-GIVES(plumb_result, pl_breaks_run, PLUMB_OK, plumb_world *world, const char *function)
+GIVES(plumb_result, pl_breaks_run, PLUMB_OK, plumb_world *world, const char *function, bool waits)
 #define REFUSES_PARTS(fn, ...)                                                                     \
     int fn(__VA_ARGS__)                                                                            \
     {                                                                                              \
@@ -206,7 +206,7 @@ GIVES(const plumb_body *, plumb_world_body_break_parts, (count != NULL ? (*count
 WANT(pl_want_heat)
 RESERVE(pl_heat_reserve_flow)
 VOID(pl_heat_flow, plumb_world *world, double dt)
-GIVES(plumb_result, pl_heat_run, PLUMB_OK, plumb_world *world, const char *function)
+GIVES(plumb_result, pl_heat_run, PLUMB_OK, plumb_world *world, const char *function, bool waits)
 #endif
 
 #if !PL_HAS(LIQUID)

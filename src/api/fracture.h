@@ -49,8 +49,9 @@ plumb_result pl_shatter(plumb_world *world, const char *function, plumb_body bod
 
 //---- breaking.c ----------------------------------------------------------------------------------
 
-// Bodies that broke in the step before shatter, with their events; those of the step before are forgotten. E_MEMORY: those
+// Bodies that broke in the step before shatter, with their events; those of the step before are forgotten. `waits`: that
+// alone, as in a step of dt 0, in which nothing changes. E_MEMORY: those
 // that are left wait for the next step.
-plumb_result pl_breaks_run(plumb_world *world, const char *function);
+plumb_result pl_breaks_run(plumb_world *world, const char *function, bool waits);
 
 #endif

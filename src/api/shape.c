@@ -9,6 +9,7 @@
 #include "world/filter.h"
 #include "world/rows.h"
 #include "world/told.h"
+#include "world/waves_list.h"
 
 //---- create, destroy -----------------------------------------------------------------------------
 
@@ -75,6 +76,9 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
     }
     if (desc->one_way.direction.x != 0 || desc->one_way.direction.y != 0) {
         pl_one_way_apply(world, first, &desc->one_way);
+    }
+    if (world->waves.count > 0 && pl_waves_of(world, *shape) != NULL) {
+        pl_waves_refile(world, *shape, true); // of a handle that was taken over
     }
     pl_mass_revise(world, row);
     return PLUMB_OK;

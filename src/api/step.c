@@ -13,10 +13,10 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     PL_TRY(pl_check_range(world, __func__, "dt", dt, 0, 1));
     PL_TRY(pl_commands_run(world));
     if ((world->fracture.pending_count | world->fracture.break_count) != 0) {
-        PL_TRY(pl_breaks_run(world, __func__));
+        PL_TRY(pl_breaks_run(world, __func__, dt == 0));
     }
     if ((world->heats.count | world->heats.gone_count) != 0) {
-        PL_TRY(pl_heat_run(world, __func__));
+        PL_TRY(pl_heat_run(world, __func__, dt == 0));
     }
     pl_step_observer *observer = world->observer;
     if (observer != NULL && observer->begin != NULL) {

@@ -69,7 +69,8 @@ static void pull_one(const pl_law_system *system, const pl_law_state *states, ui
         const pl_law_now *law = &system->laws[k];
         const plumb_law_desc *d = law->desc;
         const double hold = pl_law_hold_of(d, body);
-        if (hold == 0 || law->member == i || d->kind == PLUMB_LAW_MAGNETIC ||
+        const bool is_elsewhere = system->alone && law->member != PL_NONE;
+        if (hold == 0 || is_elsewhere || law->member == i || d->kind == PLUMB_LAW_MAGNETIC ||
             d->kind == PLUMB_LAW_MUTUAL || d->priority < floor[d->hold] ||
             (!system->replaces && pl_law_is_endless(d))) {
             continue;
@@ -228,7 +229,8 @@ static void push_single(void *context, uint32_t first, uint32_t count)
     const passage *p = context;
     for (uint32_t i = first; i < first + count; ++i) {
         pl_law_body *body = &pl_law_bodies(p->world)[p->pushed[i].value];
-        const pl_law_system system = system_of(p->world, body, 1, 0);
+        pl_law_system system = system_of(p->world, body, 1, 0);
+        system.alone = true;
         const pl_law_state state = middle(p, body);
         double a[2];
         pl_laws_pull(&system, &state, p->time, a);

@@ -69,6 +69,7 @@ typedef struct pl_law_system {
     uint32_t sources;   // the first so many attract; 0: the system is not coupled
     plumb_vec2 gravity; // that acts besides, where nothing replaces it
     bool replaces;      // some law does: then nothing is in the bodies' ax, ay
+    bool alone; // one body, out of reach of all laws that coupled ones carry as the step began
 } pl_law_system;
 
 // Accelerations (x, y a body) at a time [s] since the step began, but for those in the bodies' ax, ay, and for magnetic

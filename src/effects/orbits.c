@@ -326,6 +326,7 @@ static void travel_alone(void *context, uint32_t first, uint32_t count)
                      .table = states + 2,
                      .pull = numbers,
                      .constant = numbers + 2 };
+        v.system.alone = true;
         if (pl_law_way_of(all->world, v.system.bodies->row) == PL_LAW_FLIES) {
             travel(&v, all->dt);
         }

@@ -148,11 +148,28 @@ place pl_liquid_slide_all(const pl_liquid_grid *g, place from, place to, place *
     return to;
 }
 
+static bool stands(const pl_liquid_grid *g, const pl_liquid_solid *s)
+{
+    return s->count > 2 && !s->soft && (s->body == PL_LIQUID_NONE || !g->bodies[s->body].moves);
+}
+
+static bool is_within(const pl_liquid_grid *g, const pl_liquid_tile *tile, place at)
+{
+    bool within = false;
+    for (uint32_t k = 0; k < tile->solid_count && !within; ++k) {
+        const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
+        within = stands(g, s) && at.x >= s->low_x && at.x <= s->high_x && at.y >= s->low_y &&
+                 at.y <= s->high_y && gap_to(s, at).distance < 0;
+    }
+    return within;
+}
+
 static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place from, place to)
 {
     const double room = SKIN + MOST_WAY;
     const double way = larger(fabs(to.x - from.x), fabs(to.y - from.y));
     place unused;
+    int held = 0;
     if (way > MOST_WAY) {
         return pl_liquid_slide_all(g, from, to, &unused);
     }
@@ -163,10 +180,14 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
             to = s->thin                 ? cut(s, false, from, to, &unused)
                  : way > LEAST_WIDTH / 2 ? slide(s, from, to, &unused)
                                          : to;
-            to = out_of(s, to, &unused);
+            const place out = out_of(s, to, &unused);
+            held += stands(g, s) && (out.x != to.x || out.y != to.y);
+            to = out;
         }
     }
-    return to;
+    // Where two that stand lie flush, each would push it into the other, and it into the seam.
+    const bool is_in_seam = held > 1 && is_within(g, tile, to) && !is_within(g, tile, from);
+    return is_in_seam ? from : to;
 }
 
 //---- all of them ---------------------------------------------------------------------------------

@@ -350,7 +350,7 @@ static bool check_waves(const pl_suspect *s)
 static bool check_breaks(const plumb_world *w)
 {
     const pl_pending_break *all = w->fracture.pending.data;
-    bool sound = w->fracture.pending_count <= w->settings.breakable;
+    bool sound = true; // of bodies that are gone, or do not break any more, too
     for (uint32_t i = 0; i < w->fracture.pending_count && sound; ++i) {
         const pl_pending_break *b = &all[i];
         sound = plumb_abs(b->point.x) <= PL_LARGEST && plumb_abs(b->point.y) <= PL_LARGEST &&

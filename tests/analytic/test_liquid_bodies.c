@@ -291,6 +291,57 @@ static void images_know_what_held_them(void **state)
     plumb_world_destroy(other);
 }
 
+//---- seams ---------------------------------------------------------------------------------------
+
+// Heavy stones fall into the corners of a tank whose walls stand on its floor, flush: nothing gets into the seams.
+static int in_seams(const plumb_world *w)
+{
+    int count, found = 0;
+    const plumb_particle *p = plumb_liquid_particles(w, &count);
+    for (int i = 0; i < count; ++i) {
+        const double x = fabs((double)p[i].position.x), y = (double)p[i].position.y;
+        found += y < -0.02 || (x > 2.02 && y < 2.35);
+    }
+    return found;
+}
+
+static void walls_on_a_floor_are_tight(void **state)
+{
+    (void)state;
+    uint32_t seed = 11;
+    int found = 0;
+    for (int i = 0; i < 24; ++i) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        const plumb_body tank = sim_body(w, PLUMB_STATIC, 0, 0, 0);
+        for (int k = -1; k <= 1; ++k) {
+            plumb_shape_create(
+                w, tank,
+                &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                     .center = sim_vec(2.2 * k, k == 0 ? -0.2 : 1.2),
+                                     .half = k == 0 ? sim_vec(2.4, 0.2) : sim_vec(0.2, 1.2) });
+        }
+        assert_int_equal(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = (plumb_real)0.1 }),
+                         PLUMB_OK);
+        plumb_liquid_add_box(w, sim_vec(-2, 0), sim_vec(2, 0.8), NULL);
+        for (int k = -1; k <= 1; k += 2) {
+            const plumb_body stone = sim_body(w, PLUMB_DYNAMIC, 1.5 * k, sim_uniform(&seed, 1.3, 2),
+                                              sim_uniform(&seed, -3, 3));
+            const double r = sim_uniform(&seed, 0.2, 0.3);
+            const plumb_vec2 corners[] = { sim_vec(r, 0), sim_vec(-0.3 * r, r),
+                                           sim_vec(-0.5 * r, -0.9 * r) };
+            plumb_shape_create(
+                w, stone,
+                &(plumb_shape_desc){
+                    .kind = PLUMB_POLYGON, .points = corners, .count = 3, .density = 1500 });
+            plumb_body_set_velocity(w, stone, sim_vec(sim_uniform(&seed, 0.5, 1.5) * k, 0));
+        }
+        sim_run(w, 120, 1.0 / 30);
+        found += in_seams(w);
+        plumb_world_destroy(w);
+    }
+    assert_int_equal(found, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +354,7 @@ int main(void)
         cmocka_unit_test(stacks_part_in_water),
         cmocka_unit_test(what_is_heavy_lies_still),
         cmocka_unit_test(images_know_what_held_them),
+        cmocka_unit_test(walls_on_a_floor_are_tight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

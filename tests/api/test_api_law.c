@@ -266,6 +266,43 @@ static void momentum_is_kept(void **state)
     plumb_world_destroy(w);
 }
 
+// A push within the step brings a body into reach of what it was far from when the step began: of any of many bodies that carry a law, whether
+// it flies or is pushed.
+static void who_comes_into_reach_by_surprise_keeps_momentum(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 48; ++i) {
+        const int carriers = 1 + i % 12;
+        plumb_world *w = make_world((plumb_world_desc){ .zero_gravity = true });
+        plumb_law_create(w,
+                         &(plumb_law_desc){ .kind = PLUMB_LAW_UNIFORM, .vector = { 0, R(0.5) } });
+        for (int k = 0; k < carriers; ++k) {
+            const plumb_body carrier = ball(w, R(10 * k), 0, (plumb_body_desc){ 0 });
+            plumb_law_create(w, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR,
+                                                   .body = carrier,
+                                                   .strength = 50,
+                                                   .softening = R(0.1),
+                                                   .radius = 2 });
+        }
+        const plumb_body guest = ball(w, R(10 * (i / 12 * carriers / 4)), R(2.2),
+                                      (plumb_body_desc){ .damping = i % 2 == 0 ? 0 : R(1e-30) });
+        plumb_world_set_substeps(w, 8, 1);
+        const double push = -3 * (double)plumb_body_mass(w, guest) * 3600;
+        double mass = 0;
+        const plumb_body_span span = plumb_world_bodies(w);
+        for (int k = 0; k < span.count; ++k) {
+            mass += (double)plumb_body_mass(w, span.body[k]);
+        }
+        plumb_body_apply_force_center(w, guest, plumb_v2(0, R(push)));
+        run(w, 1);
+        const plumb_energy after = plumb_world_energy(w);
+        const double due = push / 60 + mass * 0.5 / 60;
+        assert_true(fabs(after.momentum_x) < 1e-5 * fabs(push / 60));
+        assert_true(fabs(after.momentum_y - due) < 1e-5 * fabs(push / 60));
+        plumb_world_destroy(w);
+    }
+}
+
 //---- the step ------------------------------------------------------------------------------------
 
 static bool has_row(plumb_world *w, const char *name)
@@ -541,6 +578,7 @@ int main(void)
         cmocka_unit_test(zones_add_and_replace_by_priority),
         cmocka_unit_test(categories_choose),
         cmocka_unit_test(momentum_is_kept),
+        cmocka_unit_test(who_comes_into_reach_by_surprise_keeps_momentum),
         cmocka_unit_test(without_laws_there_is_no_pass),
         cmocka_unit_test(threads_and_widths_change_no_bit),
         cmocka_unit_test(images_go_on_with_the_same_bits),

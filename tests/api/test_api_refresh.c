@@ -187,6 +187,69 @@ static void the_next_step_gives_the_same_bits(void **state)
     assert_true(slept > BODIES / 2);
 }
 
+// What melts into a liquid, burns, grows, shrinks away and breaks.
+static plumb_world *make_changing(plumb_world_desc desc, uint32_t seed)
+{
+    plumb_world *w;
+    desc.wrap_x = 0;
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    const plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+    add_box(w, ground, 8, 0.5, (plumb_shape_desc){ .center = { 0, R(-0.5) } });
+    assert_int_equal(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1) }), PLUMB_OK);
+    for (int i = 0; i < 20; ++i) {
+        plumb_body_desc body = { .position = { R(0.7 * i - 7), R(0.4 + i % 3) },
+                                 .velocity = { 0, R(-3 - i % 5) },
+                                 .growth = i % 4 == 0 ? R(sim_uniform(&seed, -1.5, 0.5)) : 0 };
+        if (i % 4 == 1) {
+            body.temperature = body.melting_point = 273;
+            body.heating = R(sim_uniform(&seed, 1e5, 1e6));
+            body.latent_heat = R(1e4);
+        } else if (i % 4 == 2) {
+            body.temperature = 700, body.ignition = 600;
+            body.burn_rate = R(sim_uniform(&seed, 0.01, 0.2));
+        } else if (i % 4 == 3) {
+            body.break_impulse = R(sim_uniform(&seed, 0.05, 1));
+        }
+        add_box(w, plumb_body_create(w, &body), 0.2, 0.25, (plumb_shape_desc){ 0 });
+    }
+    return w;
+}
+
+static int ends(const plumb_world *w)
+{
+    int gone, broken;
+    plumb_world_body_gone_events(w, &gone);
+    plumb_world_body_break_events(w, &broken);
+    return gone + 100 * broken;
+}
+
+// A pause neither begins nor hurries any of it.
+static void what_melts_grows_and_breaks_waits(void **state)
+{
+    (void)state;
+    int told = 0;
+    for (int kind = 0; kind < KINDS; ++kind) {
+        plumb_world *plain = make_changing(kinds_of_worlds[kind], 5u + (uint32_t)kind);
+        plumb_world *paused = make_changing(kinds_of_worlds[kind], 5u + (uint32_t)kind);
+        for (int i = 0; i < 150; ++i) {
+            step(plain, DT);
+            step(paused, DT);
+            assert_int_equal(ends(paused), ends(plain));
+            told += ends(paused);
+            const uint64_t hash = plumb_world_hash(plain);
+            for (int k = 0; k < 1 + i % 2; ++k) {
+                step(paused, 0);
+                assert_int_equal(ends(paused), 0);
+                assert_true(plumb_world_hash(paused) == hash);
+            }
+        }
+        plumb_world_destroy(plain);
+        plumb_world_destroy(paused);
+    }
+    print_message("%d broke, %d are gone\n", told / 100, told % 100);
+    assert_true(told / 100 >= 4 && told % 100 >= 4);
+}
+
 //---- something was -------------------------------------------------------------------------------
 
 static void edit(place *p, uint32_t *seed)
@@ -482,6 +545,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_next_step_gives_the_same_bits),
+        cmocka_unit_test(what_melts_grows_and_breaks_waits),
         cmocka_unit_test(edits_are_seen_and_nothing_is_told_twice),
         cmocka_unit_test(an_editor_sees_where_a_crate_lies),
         cmocka_unit_test(what_is_touched_in_its_sleep_wakes),

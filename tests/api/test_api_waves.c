@@ -408,6 +408,57 @@ static void *save(const plumb_world *w, size_t *size)
     return bytes;
 }
 
+// Water that comes to another body, gets another size and its own again, or another form that is the same.
+static void make_anew(bay *b, int how)
+{
+    if (how == 1) {
+        const plumb_body other = plumb_body_create(
+            b->w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 3, -4 } });
+        assert_int_equal(plumb_body_merge(b->w, other, b->holder, NULL), PLUMB_OK);
+    } else if (how == 2) {
+        assert_int_equal(plumb_body_scale(b->w, b->holder, 2), PLUMB_OK);
+        assert_int_equal(plumb_body_scale(b->w, b->holder, R(0.5)), PLUMB_OK);
+    } else if (how == 3) {
+        const plumb_shape_desc same = { .kind = PLUMB_BOX, .half = { 10, 2 } };
+        assert_int_equal(plumb_shape_set_geometry(b->w, b->water, &same), PLUMB_OK);
+    }
+}
+
+static double heights(plumb_world *w)
+{
+    const plumb_body_span span = plumb_world_bodies(w);
+    double sum = 0;
+    for (int i = 0; i < span.dynamic_count; ++i) {
+        sum += (double)plumb_body_center(w, span.body[i]).y;
+    }
+    return sum / span.dynamic_count;
+}
+
+static void waves_stay_with_a_shape_that_is_made_anew(void **state)
+{
+    (void)state;
+    double mean[4];
+    for (int how = 0; how < 4; ++how) {
+        bay b = make_waves((plumb_world_desc){ 0 }), other = make_waves((plumb_world_desc){ 0 });
+        run(b.w, 90);
+        make_anew(&b, how);
+        const size_t size = plumb_world_snapshot_size(b.w);
+        void *bytes = malloc(size);
+        assert_int_equal(plumb_world_save(b.w, bytes, size), PLUMB_OK);
+        assert_int_equal(plumb_world_restore(other.w, bytes, size), PLUMB_OK);
+        free(bytes);
+        mean[how] = 0;
+        for (int i = 0; i < 60; ++i) {
+            run(b.w, 1), run(other.w, 1);
+            assert_true(plumb_world_hash(b.w) == plumb_world_hash(other.w));
+            mean[how] += heights(b.w) / 60;
+        }
+        print_message("mean height of what floats: %.5f m\n", mean[how]);
+        assert_near(mean[how], mean[0], 1e-4);
+        plumb_world_destroy(b.w), plumb_world_destroy(other.w);
+    }
+}
+
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
@@ -547,6 +598,7 @@ int main(void)
         cmocka_unit_test(extremes_stay_finite),
         cmocka_unit_test(without_waves_there_is_no_pass),
         cmocka_unit_test(threads_and_widths_change_no_bit),
+        cmocka_unit_test(waves_stay_with_a_shape_that_is_made_anew),
         cmocka_unit_test(images_go_on_with_the_same_bits),
         cmocka_unit_test(recordings_hold_them),
         cmocka_unit_test(any_allocation_may_fail),
