@@ -5,7 +5,7 @@
 /// they are until the next step (ask for an array again after a structural change: it may have moved). A handle in an
 /// event may be stale: plumb_same still tells which one it is, for slots that are used again have other handles,
 /// and every call catches it. After a destruction the next step (of dt 0, too) tells
-/// - the end of each contact that was touching, unless it slept: with the handles of before;
+/// - the end of each contact that was touching, asleep or not: with the handles of before;
 /// - the end of each overlap with a sensor, or of a sensor, asleep or not: likewise;
 /// - nothing of joints: only what breaks by itself tells that it broke, its handle being stale by then.
 /// Sleep, wake, begin and strain events and quarantines are of what was alive when they were told; so are hits, but
@@ -16,7 +16,8 @@
 /// without being pressed there neither ends nor begins. So an impact is told whatever the speed, restitution, solver
 /// and number of substeps, and once: a ball that bounces within a step begins in it, and ends in the next one that
 /// finds it away. Of one pair a step tells a begin or an end, not both; what parts and meets again between two
-/// steps in a row touches on.
+/// steps in a row touches on. But a shape whose form is another (plumb_shape_set_geometry, plumb_body_scale, cut, merged)
+/// is met anew: touches that go on end and begin in one step, and the end is of the touch before.
 ///
 /// A body that lies on several flush tiles of one material touches each of them, and events tell so; what
 /// they bear together is told as impulses of one of those contacts, the others have none. Which of the tiles are
@@ -42,8 +43,8 @@ typedef struct plumb_contact_begin {
 
 /// Two shapes ceased to touch: they were apart at the beginning of the step and nothing passed between them in it.
 /// Or one of them was removed (its handle and perhaps that of its body are
-/// then stale), disabled with its body, or is kept apart from now on. Contacts of bodies that sleep when one
-/// of the shapes goes end without an event.
+/// then stale), disabled with its body, made a sensor, of a body whose type meets the other no more, or is kept apart
+/// from now on. Bodies that sleep are no exception. So whoever counts begins and ends is always right.
 typedef struct plumb_contact_end {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;

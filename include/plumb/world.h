@@ -49,16 +49,17 @@ typedef struct plumb_world_desc {
                                     ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
                                     ///< plumb_stats.exact_residual
     bool no_exact_islands;          ///< Soft step: unless this is set, small islands that sweeps cannot hold (96 contacts and joints
-                                    ///< at the most, none of which bounces or is driven) are solved as PLUMB_SOLVER_EXACT does, whatever else
-                                    ///< there is: where a body lies on one that is ten times lighter, or contacts have borne four
-                                    ///< times the weight of a body for 16 steps and give way by 2 % of it. Costs some 30 us a
-                                    ///< step for two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands
+                                    ///< at the most, none of which bounces, is driven or crushed by a kinematic body) are solved as
+                                    ///< PLUMB_SOLVER_EXACT does, whatever else there is: where a body lies on one that is ten times
+                                    ///< lighter, or contacts have borne four times the weight of a body for 16 steps and give way by
+                                    ///< 2 % of it. Costs some 30 us a step for two bodies, 0.4 ms for a stack of 80. How many:
+                                    ///< plumb_stats.exact_islands
     bool no_fine_islands;           ///< Soft step: unless this is set, and while all contacts and joints that are awake are 512 at
                                     ///< the most, islands in which dynamic bodies touch one another take four substeps in place
                                     ///< of one (16 a step at the most), with contacts, not joints, as much stiffer, recovery from
                                     ///< overlap at a tenth of push_speed and five more sweeps that relax where a substep of the
-                                    ///< world ends: 100 us more a step for 55 boxes. Not where restitution is above 0.2 or systems
-                                    ///< run in substeps. How many: plumb_stats.fine_islands
+                                    ///< world ends: 100 us more a step for 55 boxes. Not where restitution is above 0.2, systems
+                                    ///< run in substeps or a kinematic body crushes them. How many: plumb_stats.fine_islands
     plumb_real tolerance;           ///< [-] 0..0.5, default 0: none. Error that the world may make: it then chooses
                                     ///< solver, substeps and direct_joints itself, and those given are what it
                                     ///< begins with. See plumb/accuracy.h

@@ -42,6 +42,7 @@ plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX));
     world->desc.hit_speed = speed;
+    world->schedule_dirty = true; // impulses are added up for it
     world->pending_hits.count =
         speed > 0 ? world->pending_hits.count : 0; // nobody asks for them any more
     return PLUMB_OK;

@@ -412,6 +412,7 @@ plumb_result plumb_body_scale(plumb_world *world, plumb_body body, plumb_real fa
         pl_joint_end *end = plumb_same(j->a.body, body) ? &j->a : &j->b;
         end->local = map(&m, end->local.x, end->local.y);
         pl_joint_disturb(world, j);
+        pl_joints_replan(&world->joints); // lanes keep anchors, and its mass may be what it was
         slot = pl_joint_next(j, body);
     }
     pl_sleep_stir(world, row);

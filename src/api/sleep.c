@@ -41,10 +41,10 @@ plumb_result plumb_body_sleep(plumb_world *world, plumb_body body)
         return pl_fail(world, PLUMB_E_STATE, __func__, "body is disabled; it must be enabled");
     }
     if (pl_row_is_asleep(world, row)) {
-        if (plumb_body_is_awake(world, body)) {
-            pl_island_calm(world, world->bodies.island[row]);
-        }
-        return PLUMB_OK;
+        const bool due = plumb_body_is_awake(world, body);
+        return !due || pl_island_calm(world, world->bodies.island[row])
+                   ? PLUMB_OK
+                   : pl_fail_memory(world, __func__);
     }
     return pl_sleep_put_to_sleep(world, __func__, row);
 }

@@ -8,7 +8,7 @@
 // 3. Whoever wakes may touch others that sleep, or be joined to them: round by round, until no
 //    manifold and no joint has a sleeping body on one side only.
 // 4. All of them get up. Their contacts go back into the pair list, with impulses and flags, as if
-//    they had never left it.
+//    they had never left it; those of pieces that are gone, too, so that their ends are told.
 //
 // So the solver never sees a sleeping body, and a body struck in this step moves in this step.
 // Reads: pieces, grids, islands. Writes: rows, lists of pieces, pair list, wake events. Order:
@@ -293,24 +293,31 @@ static bool mark_neighbours(plumb_world *world, real dt)
 
 //---- getting up ----------------------------------------------------------------------------------
 
+// Kinds of a contact in the pair list: of one whose pieces have changed any will do, as it is only there to be lost.
+static void kinds_of(const plumb_world *world, const pl_sleeping_contact *c, uint8_t kinds[2])
+{
+    const bool intact = pl_sleeping_contact_is_intact(world, c);
+    kinds[0] = intact ? world->pieces.kind[c->pair.a] : PL_PIECE_CIRCLE;
+    kinds[1] = intact ? world->pieces.kind[c->pair.b] : PL_PIECE_CIRCLE;
+}
+
 // The contacts of marked islands, in s->woken by kinds and key. Bodies and contacts are counted.
 static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, uint32_t *bodies)
 {
     pl_sleep *s = &world->sleep;
     const pl_sleeping_contact *all = pl_sleeping_contacts(s);
-    const uint8_t *kind = world->pieces.kind;
     const uint32_t *marked = s->marked.data;
     pl_by_kinds at;
     uint32_t total = 0;
+    uint8_t kind[2];
     *bodies = 0;
     memset(size, 0, sizeof(pl_by_kinds));
     for (uint32_t i = 0; i < s->marked_count; ++i) {
         const pl_island *island = &pl_islands(s)[marked[i]];
         *bodies += island->body_count;
         for (uint32_t c = island->first_contact; c != PL_NONE; c = all[c].next) {
-            if (pl_sleeping_contact_is_intact(world, &all[c])) {
-                ++size[kind[all[c].pair.a]][kind[all[c].pair.b]];
-            }
+            kinds_of(world, &all[c], kind);
+            ++size[kind[0]][kind[1]];
         }
     }
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
@@ -325,10 +332,9 @@ static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, 
     pl_keyed *woken = s->woken.data;
     for (uint32_t i = 0; i < s->marked_count; ++i) {
         for (uint32_t c = pl_islands(s)[marked[i]].first_contact; c != PL_NONE; c = all[c].next) {
-            if (pl_sleeping_contact_is_intact(world, &all[c])) {
-                uint32_t *to = &at[kind[all[c].pair.a]][kind[all[c].pair.b]];
-                woken[(*to)++] = (pl_keyed){ pl_pair_key(all[c].pair.a, all[c].pair.b), 0, c };
-            }
+            kinds_of(world, &all[c], kind);
+            uint32_t *to = &at[kind[0]][kind[1]];
+            woken[(*to)++] = (pl_keyed){ pl_pair_key(all[c].pair.a, all[c].pair.b), 0, c };
         }
     }
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
@@ -395,6 +401,7 @@ static void get_up(plumb_world *world)
     s->near_stale = true;
     pl_sensing_note_rest(world);
     world->joints.awake_stale = true;
+    world->schedule_dirty = true;   // there are pairs, if no rows
     world->broad.refreshed = false; // their boxes have not been
     world->pairs_dirty = true;
     world->broad.stale = true;

@@ -170,7 +170,7 @@ static bool check_fixed_lists(const pl_suspect *s)
     uint32_t expected = 0, seen = 0;
     for (uint32_t i = 0; i < w->sleep.island_slots; ++i) {
         const pl_island *island = pl_suspect_island(s, i);
-        for (uint32_t c = island->body_count > 0 ? island->first_contact : PL_NONE; c != PL_NONE;
+        for (uint32_t c = pl_island_is_open(island) ? island->first_contact : PL_NONE; c != PL_NONE;
              c = pl_suspect_sleeping(s, c)->next) {
             expected += pl_suspect_sleeping(s, c)->fixed != PL_NONE;
         }
@@ -181,8 +181,9 @@ static bool check_fixed_lists(const pl_suspect *s)
         for (; c != PL_NONE; c = pl_suspect_sleeping(s, c)->fixed_next) {
             const pl_sleeping_contact *d = pl_suspect_sleeping(s, c);
             const uint32_t island = d->island;
-            if (island >= w->sleep.island_slots || pl_suspect_island(s, island)->body_count == 0 ||
-                d->fixed != p || d->fixed_previous != before || d->fixed_next == c ||
+            if (island >= w->sleep.island_slots ||
+                !pl_island_is_open(pl_suspect_island(s, island)) || d->fixed != p ||
+                d->fixed_previous != before || d->fixed_next == c ||
                 (d->fixed_next != PL_NONE && d->fixed_next >= w->sleep.contact_slots) ||
                 seen++ == expected) {
                 return false;
@@ -198,7 +199,7 @@ static bool check_free_islands(const pl_suspect *s)
     const pl_sleep *sleep = &s->world.sleep;
     uint32_t left = sleep->island_slots - sleep->island_count, due = 0, steps = 0;
     for (uint32_t i = sleep->free_island; left > 0; --left) {
-        if (i >= sleep->island_slots || pl_suspect_island(s, i)->body_count != 0 ||
+        if (i >= sleep->island_slots || pl_island_is_open(pl_suspect_island(s, i)) ||
             s->marks[i]++ != 0) {
             return false;
         }
@@ -213,11 +214,10 @@ static bool check_free_islands(const pl_suspect *s)
         i = pl_suspect_sleeping(s, i)->next;
     }
     for (uint32_t i = 0; i < sleep->island_slots; ++i) {
-        due += pl_suspect_island(s, i)->body_count > 0 && pl_suspect_island(s, i)->due;
+        due += pl_suspect_island(s, i)->due;
     }
     for (uint32_t i = sleep->first_due; i != PL_NONE; i = pl_suspect_island(s, i)->next_due) {
-        if (i >= sleep->island_slots || pl_suspect_island(s, i)->body_count == 0 ||
-            !pl_suspect_island(s, i)->due || steps++ == due) {
+        if (i >= sleep->island_slots || !pl_suspect_island(s, i)->due || steps++ == due) {
             return false;
         }
     }
@@ -236,7 +236,7 @@ bool pl_check_sleep(pl_suspect *s)
         if (!CHECK_BOOL(island->due) || !CHECK_BOOL(island->marked)) {
             return false;
         }
-        if (island->body_count == 0) {
+        if (!pl_island_is_open(island)) {
             continue;
         }
         ++islands;

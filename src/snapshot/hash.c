@@ -81,7 +81,7 @@ static void add_sleepers(pl_digest *digest, const plumb_world *world)
     const pl_sleep *s = &world->sleep;
     for (uint32_t i = 0; i < s->island_slots; ++i) {
         const pl_island *island = &pl_islands(s)[i];
-        if (island->body_count == 0) {
+        if (!pl_island_is_open(island)) {
             continue;
         }
         const uint32_t kept[] = { i, island->first_body, island->body_count, island->due };

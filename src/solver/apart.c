@@ -7,6 +7,7 @@
 // (DECISIONS.md). So that a game which asks for nothing gets that, each substep of an island in which two dynamic bodies touch
 // is PL_FINER shorter ones, of 16 a step at the most, whatever else there is: a world that becomes large is swept as it says.
 // Not what is followed as events, or acted on alone (cluster 0), nor while systems of the user's run in substeps: these count them.
+// Nor hard or fine is what a kinematic body crushes: nothing solves that, and the more is done about it, the more impulse there is.
 // Contacts become stiffer in their own time, as where steps become shorter (soft.c): the pair keeps a level, which a clock of the
 // world's raises, and between two levels goes by its hand. One that bore nothing has nothing stored, and is as stiff at once.
 // Joints stay as stiff as the world's: what touches and lets go again each few steps would wind a bridge of joints up (DECISIONS.md).
@@ -31,6 +32,9 @@
 #define SMALL  512 // contacts and joints of a world with fine islands
 #define FINEST 16  // substeps of a fine island
 
+// [m] of a contact with what moves by itself: whoever bears that is crushed. What a lift carries or a plough pushes sinks in by less.
+#define CRUSHED ((near_real)5e-3)
+
 // [s] in which stiffness rises by one of PL_STIFF_LEVELS: by e in half a second, as in soft.c.
 #define LEVEL_TIME 0.0533190138892265 // 0.5 ln 4 / 13
 
@@ -38,6 +42,7 @@ typedef struct pl_apart_tally {
     uint32_t contacts; // and joints
     bool seeded;       // some contact is a seed of a hard island
     bool barred;       // not to be solved exactly
+    bool crushed;      // a kinematic body presses into it
     bool stirred;      // two dynamic bodies touch
     bool bound;        // to cluster 0
 } pl_apart_tally;
@@ -121,6 +126,19 @@ static void tally_joints(const search *s)
     }
 }
 
+static bool moves_by_itself(const search *s, uint32_t row)
+{
+    const pl_bodies *b = &s->world->bodies;
+    return row >= s->dynamic && row < s->movable &&
+           (b->vx[row] != 0 || b->vy[row] != 0 || b->w[row] != 0);
+}
+
+static bool is_crushing(const search *s, uint32_t i)
+{
+    return (moves_by_itself(s, s->ends[i].a) || moves_by_itself(s, s->ends[i].b)) &&
+           pl_is_near(&pl_manifolds(&s->world->narrow)[i], -CRUSHED);
+}
+
 static void tally_contacts(const search *s)
 {
     const pl_manifold *m = pl_manifolds(&s->world->narrow);
@@ -129,6 +147,7 @@ static void tally_contacts(const search *s)
         ++t->contacts;
         t->seeded |= is_seed(s, i);
         t->barred |= m[i].restitution > 0;
+        t->crushed |= is_crushing(s, i);
         t->stirred |= s->ends[i].a < s->dynamic && s->ends[i].b < s->dynamic;
     }
 }
@@ -165,13 +184,13 @@ static void tally(const search *s)
 static bool is_hard(const search *s, uint32_t leader)
 {
     const pl_apart_tally *t = &s->tallies[leader];
-    return t->seeded && !t->barred && t->contacts <= PL_HARD_MOST;
+    return t->seeded && !t->barred && !t->crushed && t->contacts <= PL_HARD_MOST;
 }
 
 static bool is_fine(const search *s, uint32_t leader)
 {
     const pl_apart_tally *t = &s->tallies[leader];
-    return s->fine && t->stirred && !t->bound && !is_hard(s, leader);
+    return s->fine && t->stirred && !t->bound && !t->crushed && !is_hard(s, leader);
 }
 
 typedef bool is_apart(const search *s, uint32_t leader);

@@ -121,8 +121,9 @@ bool pl_want_joints(const plumb_world *world, const char **reason)
 
 bool pl_want_waking(const plumb_world *world, const char **reason)
 {
-    return say(world->asleep_count > 0, reason, "some bodies sleep: what touches them wakes them",
-               "no body sleeps");
+    // Contacts of one that was destroyed in its sleep have to end.
+    return say(world->asleep_count > 0 || world->sleep.first_due != PL_NONE, reason,
+               "some bodies sleep: what touches them wakes them", "no body sleeps");
 }
 
 bool pl_want_sleep(const plumb_world *world, const char **reason)

@@ -11,22 +11,11 @@
 #include "world/island.h"
 #include "world/rows.h"
 
-static void make_due(plumb_world *world, uint32_t island)
-{
-    pl_sleep *s = &world->sleep;
-    pl_island *i = &pl_islands(s)[island];
-    if (!i->due) {
-        i->due = true;
-        i->next_due = s->first_due;
-        s->first_due = island;
-    }
-}
-
 static void wake_contacts(plumb_world *world, uint32_t piece)
 {
     const pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
     for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
-        make_due(world, all[c].island);
+        pl_island_make_due(world, all[c].island);
     }
 }
 
@@ -66,7 +55,7 @@ void pl_sleep_stir(plumb_world *world, uint32_t row)
     pl_bodies *b = &world->bodies;
     b->rest_time[row] = PL_NOT_RESTING;
     if (b->island[row] != PL_NONE) {
-        make_due(world, b->island[row]);
+        pl_island_make_due(world, b->island[row]);
     }
     if (b->type[row] != PLUMB_DYNAMIC) {
         note_immovable(world, row);
@@ -108,7 +97,7 @@ void pl_sleep_disturb_all(plumb_world *world)
 {
     for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
         if (pl_islands(&world->sleep)[i].body_count > 0) {
-            make_due(world, i);
+            pl_island_make_due(world, i);
         }
     }
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
@@ -149,9 +138,10 @@ void pl_sleep_forget(plumb_world *world, uint32_t row)
     if (island == PL_NONE) {
         return;
     }
-    make_due(world, island);
+    pl_island_make_due(world, island);
     pl_island_remove(world, row);
-    if (pl_islands(&world->sleep)[island].body_count == 0) {
+    const pl_island *i = &pl_islands(&world->sleep)[island];
+    if (i->body_count == 0 && i->first_contact == PL_NONE) {
         pl_island_close(world, island);
     }
 }

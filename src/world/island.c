@@ -190,6 +190,17 @@ static void still_row(plumb_world *world, uint32_t row)
     pl_poses(world)[row].vx = pl_poses(world)[row].vy = 0;
 }
 
+void pl_island_make_due(plumb_world *world, uint32_t island)
+{
+    pl_sleep *s = &world->sleep;
+    pl_island *i = &pl_islands(s)[island];
+    if (!i->due) {
+        i->due = true;
+        i->next_due = s->first_due;
+        s->first_due = island;
+    }
+}
+
 static void take_off_due(pl_sleep *s, uint32_t island)
 {
     uint32_t *link = &s->first_due;
@@ -221,8 +232,55 @@ void pl_island_close(plumb_world *world, uint32_t island)
     --s->island_count;
 }
 
-void pl_island_calm(plumb_world *world, uint32_t island)
+// It still has that piece, or lies on it.
+static bool has_piece(const plumb_world *world, const pl_sleeping_contact *c, uint32_t piece)
 {
+    return piece == c->fixed || world->bodies.island[world->pieces.body[piece]] == c->island;
+}
+
+static bool is_void(const plumb_world *world, const pl_sleeping_contact *c)
+{
+    return !pl_sleeping_contact_is_intact(world, c) || !has_piece(world, c, c->pair.a) ||
+           !has_piece(world, c, c->pair.b);
+}
+
+// Contacts with what has gone since become those of an island of their own, without bodies: the next step tells their ends.
+static bool shed_void(plumb_world *world, uint32_t island)
+{
+    pl_sleep *s = &world->sleep;
+    if (!pl_islands_reserve(world, 1, 0)) {
+        return false;
+    }
+    pl_sleeping_contact *all = pl_sleeping_contacts(s);
+    uint32_t *link = &pl_islands(s)[island].first_contact, shed = PL_NONE;
+    while (*link != PL_NONE) {
+        pl_sleeping_contact *c = &all[*link];
+        if (!is_void(world, c)) {
+            link = &c->next;
+            continue;
+        }
+        shed = shed == PL_NONE ? pl_island_open(world) : shed;
+        pl_island *to = &pl_islands(s)[shed];
+        const uint32_t slot = *link;
+        *link = c->next;
+        c->next = to->first_contact;
+        c->island = shed;
+        to->first_contact = slot;
+        to->serial = pl_islands(s)[island].serial;
+        ++to->contact_count;
+        --pl_islands(s)[island].contact_count;
+    }
+    if (shed != PL_NONE) {
+        pl_island_make_due(world, shed);
+    }
+    return true;
+}
+
+bool pl_island_calm(plumb_world *world, uint32_t island)
+{
+    if (!shed_void(world, island)) {
+        return false;
+    }
     pl_bodies *b = &world->bodies;
     pl_island *i = &pl_islands(&world->sleep)[island];
     if (i->due) {
@@ -234,6 +292,7 @@ void pl_island_calm(plumb_world *world, uint32_t island)
         still_row(world, row);
         slot = b->next_asleep[row];
     }
+    return true;
 }
 
 //---- bodies --------------------------------------------------------------------------------------

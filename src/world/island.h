@@ -43,8 +43,10 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
                     const pl_manifold *manifold, bool steps);
 // Gives contacts and slot back; its bodies have been taken out.
 void pl_island_close(plumb_world *world, uint32_t island);
-// It is not due any more, and nothing pushes its bodies.
-void pl_island_calm(plumb_world *world, uint32_t island);
+// It wakes in the next step.
+void pl_island_make_due(plumb_world *world, uint32_t island);
+// It is not due any more, and nothing pushes its bodies. False when out of memory: it is as it was.
+bool pl_island_calm(plumb_world *world, uint32_t island);
 // Both pieces of a contact are those that it was made for.
 bool pl_sleeping_contact_is_intact(const plumb_world *world, const pl_sleeping_contact *contact);
 // Moves the body of a row between the partitions, and its pieces between lists. At most two other

@@ -195,6 +195,40 @@ static void a_hit_tells_speed_point_and_impulse(void **state)
     }
 }
 
+// Told from the next step on, or no more, in a world in which nothing else changes: as in one that was made so.
+static void a_hit_speed_holds_from_the_next_step_on(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; ++k) {
+        const bool off = k >= 20;
+        plumb_contact_hit told[2] = { { .impulse = 0 }, { .impulse = 0 } };
+        int hits[2] = { 0, 0 };
+        for (int set = 0; set < 2; ++set) {
+            const bool now = set == 1 ? off : !off; // before it is set
+            plumb_world *w = flat_world((plumb_world_desc){ .hit_speed = now ? 1 : 0 });
+            add_floor(w, NO_MATERIAL);
+            plumb_body lower = add_disc(w, 2, 0.5, (plumb_shape_desc){ 0 }, NULL);
+            plumb_body_set_no_sleep(w, lower, true);
+            add_disc(w, 2, 3, (plumb_shape_desc){ 0 }, NULL);
+            for (int i = 0; i < 64; ++i) {
+                if (set == 1 && i == k % 20) {
+                    assert_int_equal(plumb_world_set_hit_speed(w, off ? 0 : 1), PLUMB_OK);
+                }
+                steps(w, 1);
+                int count;
+                const plumb_contact_hit *hit = plumb_world_hit_events(w, &count);
+                told[set] = count > 0 && hits[set] == 0 ? *hit : told[set];
+                hits[set] += count;
+            }
+            plumb_world_destroy(w);
+        }
+        assert_true((hits[0] > 0) == !off);
+        assert_int_equal(hits[0], hits[1]);
+        assert_near(told[0].approach_speed, told[1].approach_speed, 1e-6);
+        assert_near(told[0].impulse, told[1].impulse, 1e-6);
+    }
+}
+
 // An elastic ball: the impulse of the impact, (1 + e) m v, is part of the step's.
 static void impacts_count_as_impulses(void **state)
 {
@@ -343,6 +377,7 @@ int main(void)
         cmocka_unit_test(one_contact_of_many_is_taken_out),
         API_TEST(edits_are_refused_out_of_their_phase),
         cmocka_unit_test(a_hit_tells_speed_point_and_impulse),
+        cmocka_unit_test(a_hit_speed_holds_from_the_next_step_on),
         cmocka_unit_test(impacts_count_as_impulses),
         cmocka_unit_test(a_chain_is_touched_once),
         cmocka_unit_test(a_joint_of_a_chain_is_hit_once),

@@ -448,6 +448,50 @@ static void any_allocation_may_fail(void **state)
     print_message("%ld allocations, each failed once\n", calls);
 }
 
+// What a hinge is held at goes along, also where no mass changes: a pendulum on a body that is not dynamic, or has a sensor alone.
+static void hinges_go_along_with_what_grows(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 12; ++k) {
+        const plumb_body_type type = (plumb_body_type)(k % 3);
+        plumb_world *w, *copy;
+        assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+        assert_int_equal(plumb_world_create(NULL, &copy), PLUMB_OK);
+        plumb_body arm =
+            plumb_body_create(w, &(plumb_body_desc){ .type = type, .no_gravity = true });
+        plumb_body bob = plumb_body_create(w, &(plumb_body_desc){ .position = { 1, -2 } });
+        plumb_shape_create(w, arm,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                .half = { 1, R(0.1) },
+                                                .sensor = type == PLUMB_DYNAMIC });
+        plumb_shape_create(w, bob, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.3) });
+        plumb_joint hinge = plumb_joint_create(
+            w, &(plumb_joint_desc){
+                   .kind = PLUMB_REVOLUTE, .body_a = arm, .body_b = bob, .anchor = { 1, 0 } });
+        for (int i = 0; i < k; ++i) {
+            plumb_world_step(w, DT);
+        }
+        assert_int_equal(plumb_body_scale(w, arm, R(1.5)), PLUMB_OK);
+        const plumb_vec2 at = plumb_body_local_point(w, arm, plumb_joint_anchor_a(w, hinge));
+        assert_near(at.x, 1.5, 1e-5);
+        size_t size = plumb_world_snapshot_size(w);
+        void *image = malloc(size);
+        assert_int_equal(plumb_world_save(w, image, size), PLUMB_OK);
+        assert_int_equal(plumb_world_restore(copy, image, size), PLUMB_OK);
+        for (int i = 0; i < 120; ++i) {
+            assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
+            plumb_world_step(copy, DT);
+            assert_true(plumb_world_hash(w) == plumb_world_hash(copy));
+        }
+        const plumb_vec2 a = plumb_joint_anchor_a(w, hinge), b = plumb_joint_anchor_b(w, hinge);
+        assert_near(a.x, b.x, 0.01);
+        assert_near(a.y, b.y, 0.01);
+        free(image);
+        plumb_world_destroy(w);
+        plumb_world_destroy(copy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -456,6 +500,7 @@ int main(void)
         API_TEST(parts_have_what_the_whole_had),
         API_TEST(systems_may_not_cut),
         cmocka_unit_test(what_is_asleep_wakes),
+        cmocka_unit_test(hinges_go_along_with_what_grows),
         cmocka_unit_test(blows_are_told_once),
         cmocka_unit_test(threads_and_widths_change_no_bit),
         cmocka_unit_test(images_go_on_with_the_same_bits),

@@ -116,7 +116,7 @@ static void check_free(const plumb_world *w)
     const pl_sleep *s = &w->sleep;
     uint32_t count = 0, slot = s->free_island;
     for (; count < s->island_slots - s->island_count; ++count) {
-        assert_int_equal(pl_islands(s)[slot].body_count, 0);
+        assert_false(pl_island_is_open(&pl_islands(s)[slot]));
         slot = pl_islands(s)[slot].first_body;
     }
     for (count = 0, slot = s->free_contact; count < s->contact_slots - s->contact_count; ++count) {
@@ -130,7 +130,7 @@ static void check_books(const plumb_world *w)
     uint32_t bodies = 0, contacts = 0, islands = 0, due = 0;
     check_rows(w);
     for (uint32_t i = 0; i < s->island_slots; ++i) {
-        if (pl_islands(s)[i].body_count > 0) {
+        if (pl_island_is_open(&pl_islands(s)[i])) {
             check_bodies_of(w, i, &bodies);
             check_contacts_of(w, i, &contacts);
             assert_false(pl_islands(s)[i].marked);

@@ -26,7 +26,7 @@ typedef struct pl_sleeping_contact {
 typedef struct pl_island {
     uint32_t first_body; // registry slot; the list runs through the body rows
     uint32_t last_body;
-    uint32_t body_count;    // 0: a free slot, whose first_body is the next one
+    uint32_t body_count;    // 0, and not due: a free slot, whose first_body is the next one
     uint32_t first_contact; // sleeping contacts
     uint32_t serial;        // newest piece when it fell asleep: contacts of younger ones are void
     bool due;               // it wakes in the next step
@@ -99,6 +99,12 @@ typedef struct pl_sleep {
 static inline pl_island *pl_islands(const pl_sleep *sleep)
 {
     return (pl_island *)sleep->islands.data;
+}
+
+// Not a free slot. One without bodies has contacts whose ends the next step tells.
+static inline bool pl_island_is_open(const pl_island *island)
+{
+    return island->body_count > 0 || island->due;
 }
 
 static inline pl_sleeping_contact *pl_sleeping_contacts(const pl_sleep *sleep)
