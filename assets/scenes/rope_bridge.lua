@@ -18,7 +18,7 @@ for i = 1, crates do
 end
 local lantern = body { name = "lantern", circle { 0.2 }, at = {-6.5, 0.9}, mass = 2, color = "#e8c75a" }
 local thread = rope { from = {-6.5, 2.5}, to = {-6.5, 1.1}, to_body = "lantern", hold = "from", nodes = 8, mass = 0.05,
-                      stiffness = 1e4, damping = 5, color = "#4a3b32" }
+                      stiffness = 1e4, damping = 5, color = "#4a3b32", sleep = false } -- it is to be told exactly what it carries
 
 -- [N] that one end of the rope holds up: its edge's stiffness times strain, upward.
 local function upward(near, next)

@@ -4,8 +4,8 @@
 /// and was neither speeding up nor slowing down: from one half of that time to the next, its way
 /// changed by less than a fiftieth of sleep_speed * sleep_time (by default, what accelerates by 8
 /// mm/s^2 stays awake), under a force that stayed the same meanwhile (see below). Bodies that
-/// touch one another, come within 2 cm, or are joined make an island; static and kinematic bodies
-/// do not connect. What is pushed out of an overlap or pulled together by a joint is as fast as its
+/// touch one another, come within 2 cm, or are joined make an island, with the soft bodies that touch or hang on them
+/// (plumb/softbody.h); static and kinematic bodies do not connect. What is pushed out of an overlap or pulled together by a joint is as fast as its
 /// place changes. When all bodies of an island rest, none touches a kinematic body that moves, and none
 /// is carried along by a surface (surface_speed) or moved by the motor of a joint, however slowly,
 /// they fall asleep together. But what floats, an island that touches nothing static or kinematic and is not joined

@@ -12,7 +12,7 @@
 /// Nodes are circles that touch the solid shapes of bodies, with friction and without restitution; fast ones do not
 /// pass through. They fall by the world's gravity; laws and the lift of fluids do not act on them. A liquid carries and presses
 /// what has an area, triangles and rings with gas, whatever its mass and stiffness, and passes threads (plumb/liquid.h). Soft
-/// bodies do not touch one another, nor themselves. They do not sleep, nor do bodies that they pull or touch.
+/// bodies do not touch one another, nor themselves. At rest they sleep, together with the bodies that they hold or touch.
 /// The world must not wrap around. Nothing of it is done in a world without soft bodies.
 #ifndef PLUMB_SOFTBODY_H
 #define PLUMB_SOFTBODY_H
@@ -92,6 +92,8 @@ typedef struct plumb_softbody_desc {
     plumb_real ambient;  ///< [N/m] 0..1e12 outside: much of it makes the gas stiff
     plumb_real area;     ///< [m^2] at rest; 0: as the nodes lie
     plumb_filter filter; ///< {0}: category 1, touches everything
+    bool no_sleep;       ///< it does not fall asleep, nor does what it holds or touches
+    bool asleep;         ///< it sleeps until something wakes it, and its nodes stand still; not where nothing sleeps
 } plumb_softbody_desc;
 
 /// Makes a soft body. `desc` and its arrays are copied. Null on error: E_NULL, E_RANGE, E_NOT_FINITE, E_HANDLE (a pin's
@@ -139,6 +141,34 @@ typedef struct plumb_softbody_state {
 PLUMB_API plumb_result plumb_softbody_measure(const plumb_world *world, plumb_softbody softbody,
                                               plumb_softbody_state *state);
 
+//---- sleep ---------------------------------------------------------------------------------------
+//
+// A soft body rests when all of its nodes do, by the speed and the time of bodies (plumb/sleep.h), and falls asleep when
+// all bodies that it holds or touches rest as well and are allowed to sleep; they are of one island through it. It stays awake where the
+// liquid may press it, where the fluid that drags it has gusts, eddies or lively waves or is held by a body that moves, and beside
+// a kinematic body that moves. What hangs on nothing fixed and touches nothing fixed falls asleep below a
+// thousandth of sleep_speed.
+//
+// What it has still before it then is left out: by as much as a / w^2 of what swings at w [rad/s] and a t^2 of what creeps to its
+// place in t [s], a being the 8 mm/s^2 of plumb/sleep.h. Tensions are those of the last step, of what still swings with it.
+//
+// Asleep its nodes stand still, and it costs nothing but for boxes that are compared where bodies move. It wakes, before contacts
+// are solved, when something awake touches it, comes within 2 cm or may in this step, when a body that holds it wakes
+// or moves, when it, such a body, what it rests on or the fluid that drags it is changed, and with gravity. What sleeps and touches it wakes
+// with it.
+
+/// False for a stale handle.
+PLUMB_API bool plumb_softbody_is_awake(const plumb_world *world, plumb_softbody softbody);
+/// Wakes it, and its neighbours at the start of the next step; one that is awake rests anew from 0. Errors: E_NULL, E_HANDLE.
+PLUMB_API plumb_result plumb_softbody_wake(plumb_world *world, plumb_softbody softbody);
+/// Puts it, all bodies that it holds or touches, and what these touch, to sleep at once, whatever their speed. Rows move.
+/// Errors: E_NULL, E_HANDLE, E_STATE (the world, or who is of its island, may not sleep), E_MEMORY, E_LOCKED.
+PLUMB_API plumb_result plumb_softbody_sleep(plumb_world *world, plumb_softbody softbody);
+/// Forbids or allows it to fall asleep; forbidding wakes it. Errors: E_NULL, E_HANDLE.
+PLUMB_API plumb_result plumb_softbody_set_no_sleep(plumb_world *world, plumb_softbody softbody,
+                                                   bool no_sleep);
+PLUMB_API bool plumb_softbody_no_sleep(const plumb_world *world, plumb_softbody softbody);
+
 //---- ready made ----------------------------------------------------------------------------------
 
 /// A rope, cable or chain. {0} but for `from` and `to` is valid: 1 kg/m, a load of 100 times its weight stretches it by 1 %.
@@ -158,6 +188,7 @@ typedef struct plumb_rope_desc {
     bool hold_from, hold_to;               ///< pinned to the world where no body is given
     plumb_body from_body, to_body;         ///< its ends are pinned to these, where they lie
     plumb_filter filter;
+    bool no_sleep; ///< see plumb_softbody_desc
 } plumb_rope_desc;
 /// Null on error, as plumb_softbody_create.
 PLUMB_API plumb_softbody plumb_rope_create(plumb_world *world, const plumb_rope_desc *desc);
@@ -176,6 +207,7 @@ typedef struct plumb_cloth_desc {
     plumb_real break_strain;     ///< [-] 0: never
     bool hold_top, hold_corners; ///< pinned to the world: the upper edge; its two ends
     plumb_filter filter;
+    bool no_sleep; ///< see plumb_softbody_desc
 } plumb_cloth_desc;
 /// Null on error, as plumb_softbody_create.
 PLUMB_API plumb_softbody plumb_cloth_create(plumb_world *world, const plumb_cloth_desc *desc);
@@ -193,6 +225,7 @@ typedef struct plumb_jelly_desc {
     plumb_real friction;      ///< [-] 0: 0.5; below 0: none
     plumb_vec2 velocity;      ///< [m/s]
     plumb_filter filter;
+    bool no_sleep; ///< see plumb_softbody_desc
 } plumb_jelly_desc;
 /// Null on error, as plumb_softbody_create.
 PLUMB_API plumb_softbody plumb_jelly_create(plumb_world *world, const plumb_jelly_desc *desc);
@@ -213,6 +246,7 @@ typedef struct plumb_skin_desc {
     plumb_real break_strain; ///< [-] 0: never
     plumb_vec2 velocity;     ///< [m/s]
     plumb_filter filter;
+    bool no_sleep; ///< see plumb_softbody_desc
 } plumb_skin_desc;
 /// Null on error, as plumb_softbody_create.
 PLUMB_API plumb_softbody plumb_skin_create(plumb_world *world, const plumb_skin_desc *desc);

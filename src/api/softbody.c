@@ -3,6 +3,7 @@
 // Reads: arguments, checked first (softbody_check.c). Writes: the list of soft bodies. Cost: O(nodes and elements).
 #include "api/softbody.h"
 
+#include "sleep/sleep.h"
 #include "softbody/softbody.h"
 #include "world/check.h"
 #include "world/destroy.h"
@@ -37,6 +38,7 @@ static bool reserve(plumb_world *world, const pl_softbody *item)
         size_t count, more, size;
     } lists[] = { { &s->items, s->count, 1, sizeof(pl_softbody) },
                   { &s->nodes, s->node_count, item->nodes, sizeof(plumb_softbody_node) },
+                  { &s->rests, s->rest_count, item->nodes, sizeof(pl_soft_rest) },
                   { &s->edges, s->edge_count, item->edges, sizeof(plumb_softbody_edge) },
                   { &s->bends, s->bend_count, item->bends, sizeof(plumb_softbody_bend) },
                   { &s->triangles, s->triangle_count, item->triangles,
@@ -105,10 +107,15 @@ plumb_softbody plumb_softbody_create(plumb_world *world, const plumb_softbody_de
         plumb_softbody_node *to = &pl_softbody_nodes(s)[s->node_count++];
         memset(to, 0, sizeof *to);
         *to = desc->nodes[i];
+        pl_softbody_rests(s)[s->rest_count++] = (pl_soft_rest){ 0, 0, 0, 0 };
     }
     put_elements(s, desc);
     for (int i = 0; i < desc->pin_count; ++i) {
         put_pin(world, row, &desc->pins[i]);
+    }
+    pl_softbody_see_box(world, row, pl_softbody_place_of(s, row));
+    if (desc->asleep && !desc->no_sleep && !world->desc.no_sleep) {
+        pl_softbody_lay(world, row, pl_softbody_place_of(s, row));
     }
     world->schedule_dirty = true;
     return made;
@@ -163,6 +170,8 @@ plumb_result plumb_softbody_get(const plumb_world *world, plumb_softbody softbod
         .ambient = item->ambient,
         .area = item->area,
         .filter = item->filter,
+        .no_sleep = item->no_sleep,
+        .asleep = item->asleep && !item->due,
     };
     return PLUMB_OK;
 }
@@ -197,7 +206,10 @@ plumb_result plumb_softbody_set_node(plumb_world *world, plumb_softbody softbody
     pl_softbodies *s = &world->softbodies;
     PL_TRY(check_index(world, __func__, "node", node, pl_softbody_items(s)[row].nodes));
     PL_TRY(pl_softbody_check_node(world, __func__, value));
-    pl_softbody_nodes(s)[pl_softbody_place_of(s, row).node + (uint32_t)node] = *value;
+    const pl_softbody_place at = pl_softbody_place_of(s, row);
+    pl_softbody_disturb(world, row);
+    pl_softbody_nodes(s)[at.node + (uint32_t)node] = *value;
+    pl_softbody_see_box(world, row, at);
     return PLUMB_OK;
 }
 
@@ -211,6 +223,7 @@ plumb_result plumb_softbody_set_edge(plumb_world *world, plumb_softbody softbody
     pl_softbodies *s = &world->softbodies;
     PL_TRY(check_index(world, __func__, "edge", edge, pl_softbody_items(s)[row].edges));
     PL_TRY(pl_softbody_check_edge(world, __func__, value));
+    pl_softbody_disturb(world, row);
     plumb_softbody_edge *to =
         &pl_softbody_edges(s)[pl_softbody_place_of(s, row).edge + (uint32_t)edge];
     PUT(to, *value, flags), PUT(to, *value, length), PUT(to, *value, stiffness);
@@ -232,6 +245,7 @@ plumb_result plumb_softbody_set_gas(plumb_world *world, plumb_softbody softbody,
     pl_softbody changed = *item;
     changed.pressure = pressure, changed.ambient = ambient;
     PL_TRY(pl_softbody_check_gas(world, __func__, &changed));
+    pl_softbody_disturb(world, row);
     item->pressure = pressure, item->ambient = ambient;
     return PLUMB_OK;
 }
@@ -262,6 +276,7 @@ plumb_result plumb_softbody_hold(plumb_world *world, plumb_softbody softbody, in
                            ((size_t)s->pin_count + 1) * sizeof(plumb_softbody_pin))) {
         return pl_fail_memory(world, __func__);
     }
+    pl_softbody_disturb(world, row);
     const uint32_t old = find_pin(s, row, node);
     if (old != PL_NONE) {
         pl_softbody_drop_pin(world, row, old);
@@ -281,8 +296,58 @@ plumb_result plumb_softbody_release(plumb_world *world, plumb_softbody softbody,
     if (pin == PL_NONE) {
         return pl_fail(world, PLUMB_E_STATE, __func__, "node %d is not pinned; it must be", node);
     }
+    pl_softbody_disturb(world, row);
     pl_softbody_drop_pin(world, row, pin);
     return PLUMB_OK;
+}
+
+//---- sleep ---------------------------------------------------------------------------------------
+
+bool plumb_softbody_is_awake(const plumb_world *world, plumb_softbody softbody)
+{
+    const uint32_t row = pl_softbody_find(world, softbody);
+    const pl_softbody *item = row == PL_NONE ? NULL : &pl_softbody_items(&world->softbodies)[row];
+    return item != NULL && (!item->asleep || item->due);
+}
+
+plumb_result plumb_softbody_wake(plumb_world *world, plumb_softbody softbody)
+{
+    uint32_t row;
+    PL_TRY(check_softbody(world, __func__, softbody, &row));
+    pl_softbody_disturb(world, row);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_softbody_sleep(plumb_world *world, plumb_softbody softbody)
+{
+    uint32_t row;
+    PL_TRY(check_softbody(world, __func__, softbody, &row));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (world->desc.no_sleep) {
+        return pl_fail(world, PLUMB_E_STATE, __func__,
+                       "the world has no_sleep; see plumb_world_set_sleep");
+    }
+    pl_softbody *item = &pl_softbody_items(&world->softbodies)[row];
+    item->due = false;
+    return item->asleep ? PLUMB_OK
+                        : pl_sleep_put_to_sleep(world, __func__, world->dynamic_count + row);
+}
+
+plumb_result plumb_softbody_set_no_sleep(plumb_world *world, plumb_softbody softbody, bool no_sleep)
+{
+    uint32_t row;
+    PL_TRY(check_softbody(world, __func__, softbody, &row));
+    pl_softbody_items(&world->softbodies)[row].no_sleep = no_sleep;
+    if (no_sleep) {
+        pl_softbody_disturb(world, row);
+    }
+    return PLUMB_OK;
+}
+
+bool plumb_softbody_no_sleep(const plumb_world *world, plumb_softbody softbody)
+{
+    const uint32_t row = pl_softbody_find(world, softbody);
+    return row != PL_NONE && pl_softbody_items(&world->softbodies)[row].no_sleep;
 }
 
 //---- measured ------------------------------------------------------------------------------------
@@ -315,7 +380,7 @@ static void sum_nodes(const pl_softbodies *s, const pl_softbody *item, pl_softbo
 void pl_softbodies_energy(const plumb_world *world, plumb_energy *energy)
 {
     const pl_softbodies *s = &world->softbodies;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < s->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(s)[i];
         plumb_energy own = { 0 };

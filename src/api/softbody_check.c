@@ -132,14 +132,29 @@ static bool is_new(const uint32_t *first, uint32_t stride, uint32_t i, uint32_t 
     return true;
 }
 
+static bool is_place(plumb_vec2 p)
+{
+    return p.x - p.x == 0 && p.y - p.y == 0;
+}
+
+static bool is_rest_sound(const pl_soft_rest *r)
+{
+    return r->x - r->x == 0 && r->y - r->y == 0 && r->dx - r->dx == 0 && r->dy - r->dy == 0;
+}
+
 static bool is_item_sound(const pl_softbodies *s, const pl_softbody *item, pl_softbody_place at)
 {
     number n[NUMBERS];
     bool sound = item->nodes > 0 && are_sound(n, list_item(item, n)) &&
                  *(const uint8_t *)&item->filter.nothing <= 1 &&
-                 (item->ring == 0 || item->ring >= 3);
+                 *(const uint8_t *)&item->asleep <= 1 &&
+                 *(const uint8_t *)&item->due <= *(const uint8_t *)&item->asleep &&
+                 *(const uint8_t *)&item->no_sleep <= 1 && item->rest_samples <= 2 &&
+                 item->rest_time - item->rest_time == 0 && is_place(item->low) &&
+                 is_place(item->high) && (item->ring == 0 || item->ring >= 3);
     for (uint32_t i = 0; i < item->nodes && sound; ++i) {
-        sound = are_sound(n, list_node(&pl_softbody_nodes(s)[at.node + i], n));
+        sound = are_sound(n, list_node(&pl_softbody_nodes(s)[at.node + i], n)) &&
+                is_rest_sound(&pl_softbody_rests(s)[at.node + i]);
     }
     for (uint32_t i = 0; i < item->edges && sound; ++i) {
         const plumb_softbody_edge *e = &pl_softbody_edges(s)[at.edge + i];
@@ -169,14 +184,17 @@ static bool is_item_sound(const pl_softbodies *s, const pl_softbody *item, pl_so
 bool pl_softbodies_are_sound(const pl_softbodies *s)
 {
     uint64_t sum[6] = { 0 };
+    uint32_t asleep = 0;
     for (uint32_t i = 0; i < s->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(s)[i];
         sum[0] += item->nodes, sum[1] += item->edges, sum[2] += item->bends;
         sum[3] += item->triangles, sum[4] += item->ring, sum[5] += item->pins;
+        asleep += *(const uint8_t *)&item->asleep == 1;
     }
-    bool sound = sum[0] == s->node_count && sum[1] == s->edge_count && sum[2] == s->bend_count &&
+    bool sound = s->rest_count == s->node_count && asleep == s->asleep_count &&
+                 sum[0] == s->node_count && sum[1] == s->edge_count && sum[2] == s->bend_count &&
                  sum[3] == s->triangle_count && sum[4] == s->ring_count && sum[5] == s->pin_count;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < s->count && sound; ++i) {
         const pl_softbody *item = &pl_softbody_items(s)[i];
         sound = is_item_sound(s, item, at);
@@ -364,6 +382,7 @@ plumb_result pl_softbody_check_desc(const plumb_world *world, const char *fn,
     item->area = d->ring_count == 0 ? 0 : d->area != 0 ? d->area : area_of(d);
     item->filter.category = d->filter.category, item->filter.mask = d->filter.mask;
     item->filter.group = d->filter.group, item->filter.nothing = d->filter.nothing;
+    item->no_sleep = d->no_sleep, item->rest_time = PL_NOT_RESTING;
     return check_numbers(world, fn, n, list_item(item, n));
 }
 

@@ -232,7 +232,7 @@ plumb_softbody plumb_rope_create(plumb_world *world, const plumb_rope_desc *desc
     to.desc.node_count = nodes, to.desc.edge_count = edges;
     to.desc.friction = or_else(desc->friction, 0.5);
     to.desc.damping = desc->drag;
-    to.desc.filter = desc->filter;
+    to.desc.filter = desc->filter, to.desc.no_sleep = desc->no_sleep;
     return finish(world, &to);
 }
 
@@ -349,7 +349,7 @@ plumb_softbody plumb_cloth_create(plumb_world *world, const plumb_cloth_desc *de
     to.desc.node_count = nodes;
     to.desc.friction = or_else(desc->friction, 0.5);
     to.desc.damping = desc->drag;
-    to.desc.filter = desc->filter;
+    to.desc.filter = desc->filter, to.desc.no_sleep = desc->no_sleep;
     return finish(world, &to);
 }
 
@@ -418,7 +418,7 @@ plumb_softbody plumb_skin_create(plumb_world *world, const plumb_skin_desc *desc
     to.desc.damping = desc->drag;
     to.desc.pressure = or_else(desc->pressure, 500);
     to.desc.ambient = desc->ambient;
-    to.desc.filter = desc->filter;
+    to.desc.filter = desc->filter, to.desc.no_sleep = desc->no_sleep;
     return finish(world, &to);
 }
 
@@ -480,7 +480,7 @@ static plumb_softbody make_jelly(plumb_world *world, const char *fn, const plumb
     to.desc.node_count = m->nodes, to.desc.triangle_count = m->triangles;
     to.desc.friction = or_else(d->friction, 0.5);
     to.desc.damping = d->drag;
-    to.desc.filter = d->filter;
+    to.desc.filter = d->filter, to.desc.no_sleep = d->no_sleep;
     return finish(world, &to);
 }
 

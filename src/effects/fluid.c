@@ -50,8 +50,7 @@ static void heed(plumb_world *world, uint32_t sensor, uint32_t row)
     }
 }
 
-// In gusts, eddies and waves nobody falls asleep.
-static bool is_restless(const plumb_world *world, uint32_t piece)
+bool pl_fluid_is_restless(const plumb_world *world, uint32_t piece)
 {
     const uint32_t of = world->pieces.material[piece];
     return world->materials.gust[of] > 0 || world->materials.eddies[of] > 0 ||
@@ -142,7 +141,7 @@ bool pl_fluids_find(plumb_world *world)
         if (at == e->volume_count) {
             pl_volume *made = (pl_volume *)e->volumes.data + e->volume_count++;
             pl_fluid_volume(world, sensor, made);
-            made->restless = is_restless(world, sensor);
+            made->restless = pl_fluid_is_restless(world, sensor);
         }
         if (stirs) {
             ((pl_keyed *)stirrers->data)[world->waves.step.stirrer_count++] =

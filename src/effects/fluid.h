@@ -29,6 +29,8 @@ typedef struct pl_swimmer {
     bool restless;               // it does not fall asleep there
 } pl_swimmer;
 
+// In gusts, eddies and waves nobody falls asleep: whether the piece is of a volume with such.
+bool pl_fluid_is_restless(const plumb_world *world, uint32_t piece);
 // The volume that a piece of a sensor of a fluid is.
 void pl_fluid_volume(const plumb_world *world, uint32_t piece, pl_volume *out);
 

@@ -8,6 +8,7 @@
 #include "core/sort.h"
 #include "liquid/liquid.h"
 #include "softbody/softbody.h"
+#include "world/softbody_list.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,10 +28,19 @@ static bool has_gas(const pl_softbody *item)
     return item->ring > 0 && item->pressure + item->ambient > 0;
 }
 
+static bool may_be_near(const pl_softbody *item, const pl_liquid_region *r)
+{
+    return !item->asleep || ((double)item->high.x > r->low_x && (double)item->low.x < r->high_x &&
+                             (double)item->high.y > r->low_y && (double)item->low.y < r->high_y);
+}
+
 static bool is_near(const pl_softbodies *all, const pl_softbody *item, uint32_t first,
                     const pl_liquid_region *r, double dt)
 {
     bool near = false;
+    if ((item->triangles == 0 && !has_gas(item)) || !may_be_near(item, r)) {
+        return false;
+    }
     for (uint32_t i = first; i < first + item->nodes && !near; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
         const double x = (double)n->position.x, y = (double)n->position.y;
@@ -38,7 +48,7 @@ static bool is_near(const pl_softbodies *all, const pl_softbody *item, uint32_t 
         near =
             x + way > r->low_x && x - way < r->high_x && y + way > r->low_y && y - way < r->high_y;
     }
-    return near && (item->triangles > 0 || has_gas(item));
+    return near;
 }
 
 static bool add_triangle(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t a, uint32_t b,
@@ -159,9 +169,11 @@ static bool add_softbody(plumb_world *world, pl_liquid_scratch *scratch, const p
         return false;
     }
     g->softbodies = scratch->softbodies.data;
-    g->softbodies[g->softbody_count++] = (pl_liquid_softbody){
-        .entity = item->entity, .first = at.node, .count = item->nodes, .turns = item->pins == 0
-    };
+    g->softbodies[g->softbody_count++] = (pl_liquid_softbody){ .entity = item->entity,
+                                                               .first = at.node,
+                                                               .count = item->nodes,
+                                                               .point = at.point,
+                                                               .turns = item->pins == 0 };
     return true;
 }
 
@@ -169,14 +181,16 @@ static bool add_solids(plumb_world *world, pl_liquid_scratch *scratch,
                        const pl_liquid_region *region, double dt)
 {
     const pl_softbodies *all = &world->softbodies;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
-        if (is_near(all, item, at.node, region, dt) &&
-            (!add_sheet(world, scratch, item, at) ||
-             (has_gas(item) && !add_ring(world, scratch, item, at)) ||
-             !add_softbody(world, scratch, item, at))) {
-            return false;
+        if (is_near(all, item, at.node, region, dt)) {
+            pl_softbody_rise(world, i); // what the liquid presses does not sleep
+            if (!add_sheet(world, scratch, item, at) ||
+                (has_gas(item) && !add_ring(world, scratch, item, at)) ||
+                !add_softbody(world, scratch, item, at)) {
+                return false;
+            }
         }
         at = pl_softbody_behind(at, item);
     }
@@ -282,7 +296,7 @@ static bool touches(const pl_soft_step *s, const pl_liquid_softbody *b)
     const pl_soft_contact *contacts = s->contacts.data;
     bool any = false;
     for (uint32_t i = 0; i < s->contact_count; ++i) {
-        any |= contacts[i].point - b->first < b->count && contacts[i].force > 0;
+        any |= contacts[i].point - b->point < b->count && contacts[i].force > 0;
     }
     return any;
 }
@@ -321,14 +335,15 @@ bool pl_liquid_foresee_soft(plumb_world *world, pl_liquid_grid *g, real dt)
         return false;
     }
     const pl_soft_step *s = world->softbodies.step;
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        const pl_soft_point *end = pl_soft_point_at(s, i);
-        pl_liquid_node *n = &g->nodes[i];
-        n->gain[0] = pl_liquid_held(end->vx - n->vx, PL_LIQUID_SPEED);
-        n->gain[1] = pl_liquid_held(end->vy - n->vy, PL_LIQUID_SPEED);
-    }
     for (uint32_t k = 0; k < g->softbody_count; ++k) {
-        g->softbodies[k].turns = g->softbodies[k].turns && !touches(s, &g->softbodies[k]);
+        pl_liquid_softbody *b = &g->softbodies[k];
+        for (uint32_t i = 0; i < b->count; ++i) {
+            const pl_soft_point *end = pl_soft_point_at(s, b->point + i);
+            pl_liquid_node *n = &g->nodes[b->first + i];
+            n->gain[0] = pl_liquid_held(end->vx - n->vx, PL_LIQUID_SPEED);
+            n->gain[1] = pl_liquid_held(end->vy - n->vy, PL_LIQUID_SPEED);
+        }
+        b->turns = b->turns && !touches(s, b);
     }
     return true;
 }

@@ -138,18 +138,25 @@ static double answer_by_matrix(pl_liquid_grid *g, double push)
     const pl_soft_step *s = g->world->softbodies.step;
     double *right = s->matrix.right, bend = 0;
     memset(right, 0, 3 * (size_t)s->matrix.blocks * sizeof *right);
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_push(s, i, push * g->nodes[i].sum[0], push * g->nodes[i].sum[1]);
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        const pl_liquid_softbody *b = &g->softbodies[k];
+        const pl_liquid_node *nodes = &g->nodes[b->first];
+        for (uint32_t i = 0; i < b->count; ++i) {
+            pl_soft_push(s, b->point + i, push * nodes[i].sum[0], push * nodes[i].sum[1]);
+        }
     }
     pl_soft_answer(s);
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        const uint32_t block = pl_soft_point_at(s, i)->block;
-        double *sum = g->nodes[i].sum;
-        const double x = block == PL_NONE ? 0 : right[3 * (size_t)block];
-        const double y = block == PL_NONE ? 0 : right[3 * (size_t)block + 1];
-        bend += sum[0] * x + sum[1] * y;
-        sum[0] = x;
-        sum[1] = y;
+    for (uint32_t k = 0; k < g->softbody_count; ++k) {
+        const pl_liquid_softbody *b = &g->softbodies[k];
+        for (uint32_t i = 0; i < b->count; ++i) {
+            const uint32_t block = pl_soft_point_at(s, b->point + i)->block;
+            double *sum = g->nodes[b->first + i].sum;
+            const double x = block == PL_NONE ? 0 : right[3 * (size_t)block];
+            const double y = block == PL_NONE ? 0 : right[3 * (size_t)block + 1];
+            bend += sum[0] * x + sum[1] * y;
+            sum[0] = x;
+            sum[1] = y;
+        }
     }
     return bend;
 }

@@ -45,7 +45,7 @@
     X("air",               FORCES,      IF(pl_want_air),             ONCE(pl_run_air),                                       ONCE,           \
       "air, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                                              \
     X("waking",            PAIRS,       IF(pl_want_waking),          ONCE(pl_run_waking),                                    REFRESHES,      \
-      "islands, pieces, grids, joints", "rows, pairs, grids, islands", ONE)                                                                  \
+      "islands, pieces, grids, joints, soft bodies", "rows, pairs, grids, islands", ONE)                                                     \
     X("broad phase",       PAIRS,       IF(pl_want_broad),           ONCE(pl_run_broad),                                     REFRESHES,      \
       "poses, pieces", "grids, pairs, events", ONE)                                                                                          \
     X("internal edges",    PAIRS,       IF(pl_want_internal_edges),  ONCE(pl_run_internal_edges),                            REFRESHES,      \
@@ -57,7 +57,7 @@
     X("feet",              CONTACTS,    IF(pl_want_feet),            ONCE(pl_run_feet),                                      ONCE,           \
       "manifolds, characters", "manifolds, characters", ONE)                                                                                 \
     X("sleep",             CONTACTS,    IF(pl_want_sleep),           ONCE(pl_run_sleep),                                     ONCE,           \
-      "velocities, pairs, joints", "islands, rows, pairs, manifolds, velocities", ONE)                                                       \
+      "velocities, pairs, joints, soft bodies", "islands, rows, pairs, manifolds, velocities, soft bodies", ONE)                             \
     X("sensor pairs",      CONTACTS,    IF(pl_want_sensing),         ONCE(pl_run_candidates),                                REFRESHES,      \
       "pairs", "sensors", ONE)                                                                                                               \
     X("breakable",         CONTACTS,    IF(pl_want_breaking),        ONCE(pl_run_breakable),                                 ONCE,           \

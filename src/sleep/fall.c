@@ -15,17 +15,11 @@
 #include "world/push.h"
 #include "world/marks.h"
 #include "joints/joint.h"
+#include "softbody/softbody.h"
 #include "world/check.h"
 #include "world/rows.h"
 
 #define LOOKS 8 // [-] for islands, in sleep_time
-
-// [-] of sleep_speed, below which what floats stands still: by default 3 mm a minute.
-#define STILL ((real)1e-3)
-
-// Of a member, in `held`.
-#define HELD     1u // something keeps it awake
-#define ANCHORED 2u // it touches, or is joined to, what is fixed
 
 //---- islands -------------------------------------------------------------------------------------
 
@@ -35,8 +29,7 @@ static bool moves(const plumb_world *world, uint32_t row)
     return b->vx[row] != 0 || b->vy[row] != 0 || b->w[row] != 0;
 }
 
-// Keeps nobody awake: static, kinematic and at rest, or the world.
-static bool is_calm(const plumb_world *world, uint32_t row)
+bool pl_is_calm(const plumb_world *world, uint32_t row)
 {
     return row >= world->dynamic_count + world->kinematic_count ||
            (row >= world->dynamic_count && !moves(world, row));
@@ -51,10 +44,10 @@ static void link_rows(plumb_world *world, uint32_t a, uint32_t b)
     bool member_b = b < world->dynamic_count && parents[b] != PL_NONE;
     if (member_a && member_b) {
         pl_union_join(parents, a, b);
-    } else if (member_a && !is_calm(world, b)) {
-        held[a] |= HELD;
-    } else if (member_b && !is_calm(world, a)) {
-        held[b] |= HELD;
+    } else if (member_a && !pl_is_calm(world, b)) {
+        held[a] |= PL_HELD;
+    } else if (member_b && !pl_is_calm(world, a)) {
+        held[b] |= PL_HELD;
     }
 }
 
@@ -63,10 +56,10 @@ static void hold_rows(plumb_world *world, uint32_t a, uint32_t b)
     const uint32_t *parents = world->sleep.parents.data, members = world->dynamic_count;
     uint8_t *held = world->sleep.held.data;
     if (a < members && parents[a] != PL_NONE) {
-        held[a] |= HELD;
+        held[a] |= PL_HELD;
     }
     if (b < members && parents[b] != PL_NONE) {
-        held[b] |= HELD;
+        held[b] |= PL_HELD;
     }
 }
 
@@ -76,9 +69,9 @@ static void anchor_rows(plumb_world *world, uint32_t a, uint32_t b)
     const uint32_t *parents = world->sleep.parents.data, members = world->dynamic_count;
     uint8_t *held = world->sleep.held.data;
     if (a < members && b >= members && parents[a] != PL_NONE) {
-        held[a] |= ANCHORED;
+        held[a] |= PL_ANCHORED;
     } else if (b < members && a >= members && parents[b] != PL_NONE) {
-        held[b] |= ANCHORED;
+        held[b] |= PL_ANCHORED;
     }
 }
 
@@ -88,7 +81,7 @@ static uint32_t row_of(const plumb_world *world, plumb_body body)
 }
 
 // Unites the members that are linked; afterwards the parent of each is its root.
-static void link_members(plumb_world *world, uint32_t pair_count)
+static void link_members(plumb_world *world, uint32_t pair_count, real dt)
 {
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const pl_manifold *m = pl_manifolds(&world->narrow);
@@ -115,10 +108,11 @@ static void link_members(plumb_world *world, uint32_t pair_count)
             hold_rows(world, a, b);
         }
     }
+    pl_sleep_soft_link(world, dt);
     uint32_t *parents = world->sleep.parents.data;
-    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (parents[row] != PL_NONE) {
-            parents[row] = parents[parents[row]];
+    for (uint32_t i = 0; i < pl_sleep_members(world); ++i) {
+        if (parents[i] != PL_NONE) {
+            parents[i] = parents[parents[i]];
         }
     }
 }
@@ -127,8 +121,8 @@ static bool reserve_members(plumb_world *world)
 {
     pl_sleep *s = &world->sleep;
     return pl_buffer_reserve(&world->memory, &s->parents,
-                             world->dynamic_count * sizeof(uint32_t)) &&
-           pl_buffer_reserve(&world->memory, &s->held, world->dynamic_count);
+                             pl_sleep_members(world) * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &s->held, pl_sleep_members(world));
 }
 
 // Whom a character pushes or weighs on is up with it. Returns how many members that were.
@@ -148,7 +142,7 @@ static uint32_t leave_out_pushed_by_characters(plumb_world *world)
 
 static bool stands_still(const plumb_world *world, uint32_t row)
 {
-    const real still = STILL * world->desc.sleep_speed;
+    const real still = PL_STILL * world->desc.sleep_speed;
     return pl_square_speed(&world->bodies, row) <= still * still;
 }
 
@@ -157,21 +151,22 @@ static void hold_islands(plumb_world *world)
 {
     const uint32_t *parents = world->sleep.parents.data;
     uint8_t *held = world->sleep.held.data;
-    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (parents[row] != PL_NONE) {
-            held[parents[row]] |= held[row];
+    for (uint32_t i = 0; i < pl_sleep_members(world); ++i) {
+        if (parents[i] != PL_NONE) {
+            held[parents[i]] |= held[i];
         }
     }
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (parents[row] != PL_NONE && !(held[parents[row]] & ANCHORED) &&
+        if (parents[row] != PL_NONE && !(held[parents[row]] & PL_ANCHORED) &&
             !stands_still(world, row)) {
-            held[parents[row]] |= HELD;
+            held[parents[row]] |= PL_HELD;
         }
     }
+    pl_sleep_soft_hold(world);
 }
 
-// Leaves parents only to the bodies that fall asleep; returns how many they are.
-static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
+// Leaves parents only to those who fall asleep.
+static void find_sleepers(plumb_world *world, uint32_t pair_count, real dt)
 {
     uint32_t *parents = world->sleep.parents.data, count = 0;
     uint8_t *held = world->sleep.held.data;
@@ -184,19 +179,39 @@ static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
         count += rests;
     }
     count -= leave_out_pushed_by_characters(world);
+    count += pl_sleep_soft_candidates(world);
     if (count == 0) {
-        return 0;
+        return;
     }
-    count = 0;
-    link_members(world, pair_count);
+    link_members(world, pair_count, dt);
     hold_islands(world);
-    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (parents[row] != PL_NONE) {
-            parents[row] = held[parents[row]] & HELD ? PL_NONE : parents[row];
-            count += parents[row] != PL_NONE;
+    for (uint32_t i = 0; i < pl_sleep_members(world); ++i) {
+        if (parents[i] != PL_NONE) {
+            parents[i] = held[parents[i]] & PL_HELD ? PL_NONE : parents[i];
         }
     }
-    return count;
+}
+
+// Puts all members to sleep that have a parent; `steps`: in a step, not by a call. False: out of memory, and nothing has changed.
+static bool lay_members(plumb_world *world, uint32_t pair_count, bool steps)
+{
+    const uint32_t *parents = world->sleep.parents.data;
+    uint32_t bodies = 0;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        bodies += parents[row] != PL_NONE;
+    }
+    if (bodies > 0 && !pl_lie_reserve(world, pair_count, bodies)) {
+        return false;
+    }
+    pl_sleep_soft_lie(world);
+    if (bodies > 0) {
+        if (steps) {
+            pl_lie_tell(world);
+        }
+        pl_lie_down(world, pair_count, steps);
+        world->rows_moved = steps ? false : world->rows_moved; // pairs and manifolds know
+    }
+    return true;
 }
 
 //---- the pass ------------------------------------------------------------------------------------
@@ -211,6 +226,7 @@ bool pl_sleep_fall(plumb_world *world, real dt)
         s->since += s->passed;
         s->candidate_in -= s->passed;
         pl_rest_pass(world, s->passed);
+        pl_soft_rest_pass(world, s->passed);
         s->passed = dt;
         world->quarantine.since = s->since;
     } else if (world->quarantine.attempt > 0) {
@@ -227,14 +243,9 @@ bool pl_sleep_fall(plumb_world *world, real dt)
     if (!reserve_members(world)) {
         return false;
     }
-    uint32_t sleepers = find_sleepers(world, pair_count);
-    if (sleepers > 0) {
-        if (!pl_lie_reserve(world, pair_count, sleepers)) {
-            return false;
-        }
-        pl_lie_tell(world);
-        pl_lie_down(world, pair_count, true);
-        world->rows_moved = false; // pairs and manifolds know
+    find_sleepers(world, pair_count, dt);
+    if (!lay_members(world, pair_count, true)) {
+        return false;
     }
     s->since = 0;
     return true;
@@ -242,7 +253,31 @@ bool pl_sleep_fall(plumb_world *world, real dt)
 
 //---- by command ----------------------------------------------------------------------------------
 
-plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row)
+// Whether nobody of the island may not sleep.
+static plumb_result check_members(const plumb_world *world, const char *function, uint32_t root)
+{
+    const uint32_t *parents = world->sleep.parents.data;
+    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
+        if (parents[r] == root && (world->bodies.flags[r] & PL_BODY_NO_SLEEP) != 0) {
+            return pl_fail(world, PLUMB_E_STATE, function,
+                           "body is in an island with one that may not sleep (%u:%u)",
+                           (unsigned)world->bodies.entity[r].entity.index,
+                           (unsigned)world->bodies.entity[r].entity.generation);
+        }
+    }
+    for (uint32_t i = 0; i < world->softbodies.count; ++i) {
+        const pl_softbody *item = &pl_softbody_items(&world->softbodies)[i];
+        if (parents[world->dynamic_count + i] == root && item->no_sleep) {
+            return pl_fail(world, PLUMB_E_STATE, function,
+                           "it is in an island with a soft body that may not sleep (%u:%u)",
+                           (unsigned)item->entity.entity.index,
+                           (unsigned)item->entity.entity.generation);
+        }
+    }
+    return PLUMB_OK;
+}
+
+plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t member)
 {
     // Contacts are those of the last step, if it had any.
     const uint32_t pair_count =
@@ -251,28 +286,18 @@ plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uin
         return pl_fail_memory(world, function);
     }
     uint32_t *parents = world->sleep.parents.data;
-    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
-        parents[r] = r;
+    uint8_t *held = world->sleep.held.data;
+    for (uint32_t i = 0; i < pl_sleep_members(world); ++i) {
+        const bool sleeps = i >= world->dynamic_count &&
+                            pl_softbody_items(&world->softbodies)[i - world->dynamic_count].asleep;
+        parents[i] = sleeps ? PL_NONE : i;
+        held[i] = 0;
     }
-    link_members(world, pair_count);
-    const uint32_t root = parents[row];
-    uint32_t count = 0;
-    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
-        bool member = parents[r] == root;
-        count += member;
-        if (member && (world->bodies.flags[r] & PL_BODY_NO_SLEEP) != 0) {
-            return pl_fail(world, PLUMB_E_STATE, function,
-                           "body is in an island with one that may not sleep (%u:%u)",
-                           (unsigned)world->bodies.entity[r].entity.index,
-                           (unsigned)world->bodies.entity[r].entity.generation);
-        }
+    link_members(world, pair_count, 0);
+    const uint32_t root = parents[member];
+    PL_TRY(check_members(world, function, root));
+    for (uint32_t i = 0; i < pl_sleep_members(world); ++i) {
+        parents[i] = parents[i] == root ? root : PL_NONE;
     }
-    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
-        parents[r] = parents[r] == root ? root : PL_NONE;
-    }
-    if (!pl_lie_reserve(world, pair_count, count)) {
-        return pl_fail_memory(world, function);
-    }
-    pl_lie_down(world, pair_count, false);
-    return PLUMB_OK;
+    return lay_members(world, pair_count, false) ? PLUMB_OK : pl_fail_memory(world, function);
 }

@@ -3,6 +3,7 @@
 #define PL_FALL_H
 
 #include "sleep/sleep.h"
+#include "world/softbody_list.h"
 #include "world/state.h"
 
 //---- bodies (rest.c) ---------------------------------------------------------------------------
@@ -25,6 +26,41 @@ static inline plumb_real pl_square_speed(const pl_bodies *b, uint32_t row)
 }
 
 //---- islands (fall.c) ----------------------------------------------------------------------------
+//
+// Members are rows that are awake and dynamic, and behind them the soft bodies: who is a candidate has a parent.
+
+// [-] of sleep_speed, below which what floats stands still: by default 3 mm a minute.
+#define PL_STILL ((plumb_real)1e-3)
+
+// Of a member, in `held`.
+#define PL_HELD     1u // something keeps it awake
+#define PL_ANCHORED 2u // it touches, or is joined to, what is fixed
+
+static inline uint32_t pl_sleep_members(const plumb_world *world)
+{
+    return world->dynamic_count + world->softbodies.count;
+}
+
+// Keeps nobody awake: static, kinematic and at rest, or the world.
+bool pl_is_calm(const plumb_world *world, uint32_t row);
+
+//---- soft bodies (soft.c) ------------------------------------------------------------------------
+
+// Those that are candidates get their parent. Returns how many they are.
+uint32_t pl_sleep_soft_candidates(plumb_world *world);
+// Unites members with what soft bodies hold or touch, and holds whom one does that is no candidate.
+void pl_sleep_soft_link(plumb_world *world, plumb_real dt);
+// What floats is kept by its own motion.
+void pl_sleep_soft_hold(plumb_world *world);
+// Those with a parent lie down.
+void pl_sleep_soft_lie(plumb_world *world);
+// In the waking pass: soft bodies wake that something awake touches, or that hold it; islands are marked that one which is awake
+// touches. False when out of memory.
+bool pl_sleep_soft_wake(plumb_world *world, plumb_real dt, void (*mark)(pl_sleep *, uint32_t));
+// Soft bodies wake that touch or hold bodies of the islands marked from `first` on. True if any did.
+bool pl_sleep_soft_follow(plumb_world *world, plumb_real dt, uint32_t first);
+// Islands are marked that soft bodies which are awake touch. False when out of memory.
+bool pl_sleep_soft_mark(plumb_world *world, plumb_real dt, void (*mark)(pl_sleep *, uint32_t));
 
 // A contact of the last narrow phase, or one whose end event is still to come.
 static inline bool pl_is_linked(const pl_pair *pair)

@@ -12,9 +12,9 @@ bool pl_sleep_wake(plumb_world *world, plumb_real dt);
 // changed.
 bool pl_sleep_fall(plumb_world *world, plumb_real dt);
 void pl_sleep_events_clear(plumb_world *world);
-// Puts the island of an awake dynamic row to sleep at once. Errors: E_MEMORY, E_STATE (a body of it
-// may not sleep).
-plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row);
+// Puts the island of an awake dynamic row, or of soft body i that is awake (dynamic_count + i), to sleep at once.
+// Errors: E_MEMORY, E_STATE (who is of it may not sleep).
+plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t member);
 
 //---- a step that is taken again (retry.c) ----------------------------------------------------------
 

@@ -19,7 +19,7 @@
 #include "world/joint_list.h"
 #include "world/island.h"
 #include "world/marks.h"
-#include "sleep/sleep.h"
+#include "sleep/fall.h"
 #include "broad/images.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
@@ -273,10 +273,11 @@ static bool seek_around(plumb_world *world, uint32_t island, real dt)
     return true;
 }
 
-static bool mark_neighbours(plumb_world *world, real dt)
+// From island `done` of those that are marked on.
+static bool mark_neighbours_from(plumb_world *world, real dt, uint32_t done)
 {
     pl_sleep *s = &world->sleep;
-    for (uint32_t done = 0; done < s->marked_count;) {
+    while (done < s->marked_count) {
         s->found_count = 0;
         for (uint32_t end = s->marked_count; done < end; ++done) {
             if (!seek_around(world, ((const uint32_t *)s->marked.data)[done], dt)) {
@@ -285,6 +286,31 @@ static bool mark_neighbours(plumb_world *world, real dt)
         }
         if (s->found_count > 0 &&
             (!lay_out(world, &s->probe) || !mark_touched(world, &s->probe, dt))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Where soft bodies hang in between, round by round.
+static bool mark_neighbours(plumb_world *world, real dt)
+{
+    pl_sleep *s = &world->sleep;
+    if (world->softbodies.count == 0) {
+        return mark_neighbours_from(world, dt, 0);
+    }
+    uint32_t done = 0;
+    bool any = true;
+    if (!pl_sleep_soft_wake(world, dt, mark)) {
+        return false;
+    }
+    while (any) {
+        if (!mark_neighbours_from(world, dt, done)) {
+            return false;
+        }
+        any = done < s->marked_count && pl_sleep_soft_follow(world, dt, done);
+        done = s->marked_count;
+        if (any && !pl_sleep_soft_mark(world, dt, mark)) {
             return false;
         }
     }

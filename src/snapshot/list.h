@@ -167,7 +167,8 @@
     ARRAY(uint32_t, softbodies.rings, softbodies.ring_count, sizeof(uint32_t), 0)                  \
     ARRAY(plumb_softbody_pin, softbodies.pins, softbodies.pin_count, sizeof(plumb_softbody_pin),   \
           0)                                                                                       \
-    TALLY(softbodies.missed_count) LEFT(softbodies.step)
+    ARRAY(pl_soft_rest, softbodies.rests, softbodies.rest_count, sizeof(pl_soft_rest), 0)          \
+    TALLY(softbodies.asleep_count) TALLY(softbodies.missed_count) LEFT(softbodies.step)
 
 #define PL_STATE_LAWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     ARRAY(pl_law, laws.items, laws.count, sizeof(pl_law), 8)                                       \

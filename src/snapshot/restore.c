@@ -321,8 +321,8 @@ static bool is_counted(const pl_section *section)
         "air.settings",     "air.cells",        "air.sources",          "laws.items",
         "laws.orbits",      "fracture.pending", "softbodies.items",     "softbodies.nodes",
         "softbodies.edges", "softbodies.bends", "softbodies.triangles", "softbodies.rings",
-        "softbodies.pins",  "waves.items",      "waves.modes",          "heats.items",
-        "heats.state"
+        "softbodies.pins",  "softbodies.rests", "waves.items",          "waves.modes",
+        "heats.items",      "heats.state"
     };
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; ++i) {
         if (strcmp(section->name, counted[i]) == 0) {

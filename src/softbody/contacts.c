@@ -72,6 +72,25 @@ uint32_t pl_soft_body_of(plumb_world *world, uint32_t row)
     return s->body_count++;
 }
 
+void pl_soft_see_piece(const plumb_world *world, uint32_t row, uint32_t piece,
+                       pl_soft_obstacle *out)
+{
+    const pl_bodies *b = &world->bodies;
+    plumb_convex shape;
+    pl_piece_convex(world, piece, &shape);
+    *out = (pl_soft_obstacle){ .piece = piece,
+                               .body = PL_NONE,
+                               .count = shape.count,
+                               .friction = (double)world->pieces.friction[piece],
+                               .radius = (double)shape.radius };
+    for (int i = 0; i < shape.count; ++i) {
+        out->x[i] = (double)shape.points[i].x - (double)b->local_x[row];
+        out->y[i] = (double)shape.points[i].y - (double)b->local_y[row];
+        const double r = sqrt(out->x[i] * out->x[i] + out->y[i] * out->y[i]);
+        out->extent = r > out->extent ? r : out->extent;
+    }
+}
+
 static bool add_obstacle(plumb_world *world, uint32_t row, uint32_t piece)
 {
     pl_soft_step *s = world->softbodies.step;
@@ -81,20 +100,8 @@ static bool add_obstacle(plumb_world *world, uint32_t row, uint32_t piece)
         return false;
     }
     pl_soft_obstacle *o = (pl_soft_obstacle *)s->obstacles.data + s->obstacle_count++;
-    const pl_bodies *b = &world->bodies;
-    plumb_convex shape;
-    pl_piece_convex(world, piece, &shape);
-    *o = (pl_soft_obstacle){ .piece = piece,
-                             .body = body,
-                             .count = shape.count,
-                             .friction = (double)world->pieces.friction[piece],
-                             .radius = (double)shape.radius };
-    for (int i = 0; i < shape.count; ++i) {
-        o->x[i] = (double)shape.points[i].x - (double)b->local_x[row];
-        o->y[i] = (double)shape.points[i].y - (double)b->local_y[row];
-        const double r = sqrt(o->x[i] * o->x[i] + o->y[i] * o->y[i]);
-        o->extent = r > o->extent ? r : o->extent;
-    }
+    pl_soft_see_piece(world, row, piece, o);
+    o->body = body;
     return true;
 }
 
@@ -117,7 +124,7 @@ static double way_of(const plumb_world *world, const pl_soft_point *p, double dt
     return 2 * dt * (fabs(p->vx) + fabs(p->vy) + dt * g) + p->radius;
 }
 
-static double way_of_row(const plumb_world *world, uint32_t row, double dt)
+double pl_soft_way_of_row(const plumb_world *world, uint32_t row, double dt)
 {
     const pl_bodies *b = &world->bodies;
     return row >= world->dynamic_count + world->kinematic_count
@@ -127,7 +134,7 @@ static double way_of_row(const plumb_world *world, uint32_t row, double dt)
                       fabs((double)b->w[row]) * (double)b->extent[row]);
 }
 
-static bool meets(const plumb_world *world, uint32_t piece, const pl_softbody *item)
+bool pl_soft_meets(const plumb_world *world, uint32_t piece, const pl_softbody *item)
 {
     const pl_pieces *p = &world->pieces;
     plumb_filter own = { p->category[piece], p->mask[piece], p->group[piece], p->mask[piece] == 0 };
@@ -138,12 +145,12 @@ static bool near_piece(plumb_world *world, const pl_softbody *item, uint32_t fir
                        uint32_t piece, const region *r, double dt)
 {
     pl_soft_step *s = world->softbodies.step;
-    const double way = way_of_row(world, row, dt);
+    const double way = pl_soft_way_of_row(world, row, dt);
     const pl_box box = pl_piece_tight_box(world, piece);
     const region reach = { (double)box.min_x - way, (double)box.min_y - way,
                            (double)box.max_x + way, (double)box.max_y + way };
     if (reach.low_x > r->high_x || reach.high_x < r->low_x || reach.low_y > r->high_y ||
-        reach.high_y < r->low_y || !meets(world, piece, item)) {
+        reach.high_y < r->low_y || !pl_soft_meets(world, piece, item)) {
         return true;
     }
     uint32_t obstacle = PL_NONE;
@@ -198,18 +205,18 @@ bool pl_soft_find_near(plumb_world *world, double dt)
     s->near_count = s->obstacle_count = 0;
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
-        if (!find_near(world, item, first, dt)) {
+        const uint32_t count = item->asleep ? 0 : item->nodes;
+        if (count > 0 && !find_near(world, item, first, dt)) {
             return false;
         }
-        first += item->nodes;
+        first += count;
     }
     return pl_buffer_reserve(&world->memory, &s->contacts, s->near_count * sizeof(pl_soft_contact));
 }
 
 //---- contacts of a substep -----------------------------------------------------------------------
 
-// Way out of a convex piece: distance of a point from its surface, below 0 inside, and the outward normal.
-static double distance(const pl_soft_obstacle *o, double x, double y, double n[2])
+double pl_soft_distance(const pl_soft_obstacle *o, double x, double y, double n[2])
 {
     double best = INFINITY, out[2] = { 0, 1 }, inside = -INFINITY, in[2] = { 0, 1 };
     bool within = o->count > 2;
@@ -246,7 +253,7 @@ static bool advance(const pl_soft_obstacle *o, double x, double y, double dx, do
                     double radius, double n[2], double *gap)
 {
     const double way = sqrt(dx * dx + dy * dy);
-    const double start = distance(o, x, y, n) - radius;
+    const double start = pl_soft_distance(o, x, y, n) - radius;
     double t = 0, d = start;
     if (start > way) {
         return false;
@@ -260,7 +267,7 @@ static bool advance(const pl_soft_obstacle *o, double x, double y, double dx, do
         if (t > 1) {
             return false;
         }
-        d = distance(o, x + t * dx, y + t * dy, n) - radius;
+        d = pl_soft_distance(o, x + t * dx, y + t * dy, n) - radius;
     }
     *gap = d - t * (dx * n[0] + dy * n[1]); // from the plane that it would meet
     return true;

@@ -421,30 +421,36 @@ double pl_soft_elements(plumb_world *world, double h, bool fills)
     double energy = 0;
     const pl_softbodies *all = &world->softbodies;
     const pl_soft_step *s = all->step;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     pl_soft_pull *pulls = s->pulls.data;
     uint32_t gas = s->matrix.blocks;
     for (uint32_t i = 0; i < all->count; ++i) {
-        gas -= pl_softbody_items(all)[i].ring > 0;
+        gas -= pl_softbody_items(all)[i].ring > 0 && !pl_softbody_items(all)[i].asleep;
     }
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
+        const pl_softbody_place its = at;
+        at = pl_softbody_behind(at, item);
+        if (item->asleep) {
+            continue;
+        }
         for (uint32_t k = 0; k < item->edges; ++k) {
-            const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
+            const plumb_softbody_edge *e = &pl_softbody_edges(all)[its.edge + k];
             if ((e->flags & PLUMB_EDGE_TORN) == 0) {
-                energy += pull(s, e, at.node, h, fills, &pulls[at.edge + k]);
+                energy += pull(s, e, its.point, h, fills, &pulls[its.edge + k]);
             }
         }
         for (uint32_t k = 0; k < item->bends; ++k) {
-            energy += bend(s, &pl_softbody_bends(all)[at.bend + k], at.node, h, fills);
+            energy += bend(s, &pl_softbody_bends(all)[its.bend + k], its.point, h, fills);
         }
         for (uint32_t k = 0; k < item->triangles; ++k) {
-            energy += stretch(s, &pl_softbody_triangles(all)[at.triangle + k], at.node, h, fills);
+            energy +=
+                stretch(s, &pl_softbody_triangles(all)[its.triangle + k], its.point, h, fills);
         }
         if (item->ring > 0) {
-            energy += inflate(s, item, at.node, pl_softbody_rings(all) + at.ring, gas++, h, fills);
+            energy +=
+                inflate(s, item, its.point, pl_softbody_rings(all) + its.ring, gas++, h, fills);
         }
-        at = pl_softbody_behind(at, item);
     }
     return energy;
 }

@@ -91,6 +91,7 @@ static void see_ways(const plumb_softbody_node *nodes, pl_soft_point *points,
         double velocity[2];
         pl_soft_node_velocity(&nodes[i], velocity);
         points[i].follow = pushes[i].follow;
+        points[i].carried = pushes[i].mass;
         points[i].way_x = velocity[0] + since * pushes[i].ax;
         points[i].way_y = velocity[1] + since * pushes[i].ay;
     }
@@ -101,24 +102,25 @@ void pl_soft_turn_pushes(plumb_world *world, double h)
     const pl_softbodies *all = &world->softbodies;
     pl_soft_point *points = all->step->points.data;
     const pl_soft_shove *pushes = all->step->pushes.data;
-    uint32_t first = 0;
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < all->count && all->step->pushed; ++i) {
-        const uint32_t count = pl_softbody_items(all)[i].nodes;
-        const plumb_softbody_node *nodes = pl_softbody_nodes(all) + first;
-        turn_one(nodes, points + first, pushes + first, count, h);
-        see_ways(nodes, points + first, pushes + first, count,
-                 h * (all->step->done + PL_SOFT_LATE));
-        first += count;
+        const pl_softbody *item = &pl_softbody_items(all)[i];
+        const plumb_softbody_node *nodes = pl_softbody_nodes(all) + at.node;
+        if (!item->asleep) {
+            turn_one(nodes, points + at.point, pushes + at.node, item->nodes, h);
+            see_ways(nodes, points + at.point, pushes + at.node, item->nodes,
+                     h * (all->step->done + PL_SOFT_LATE));
+        }
+        at = pl_softbody_behind(at, item);
     }
 }
 
 double pl_soft_add_pushes(const pl_soft_step *s, double h, bool fills)
 {
-    const pl_soft_shove *pushes = s->pushes.data;
     double energy = 0;
     for (uint32_t i = 0; i < s->point_count && s->pushed; ++i) {
         const pl_soft_point *p = pl_soft_point_at(s, i);
-        const double m = pushes[i].mass, x = h * p->push_x, y = h * p->push_y;
+        const double m = p->carried, x = h * p->push_x, y = h * p->push_y;
         energy += m * (p->cx * p->cx + p->cy * p->cy) / 2 - (x * p->cx + y * p->cy);
         if (fills && (m > 0 || x != 0 || y != 0)) {
             const double own[4] = { m, 0, 0, m };

@@ -41,11 +41,11 @@ static void limp(const pl_softbodies *all, const pl_softbody *item, pl_softbody_
 void pl_soft_settle_edges(plumb_world *world)
 {
     const pl_softbodies *all = &world->softbodies;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < all->count; ++i) {
         pl_softbody *item = &pl_softbody_items(all)[i];
         bool tears = false;
-        for (uint32_t k = 0; k < item->edges; ++k) {
+        for (uint32_t k = 0; k < item->edges && !item->asleep; ++k) {
             plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
             settle(e, (const pl_soft_pull *)all->step->pulls.data + at.edge + k);
             if ((e->flags & PLUMB_EDGE_TORN_NOW) != 0) {

@@ -117,12 +117,37 @@ bool pl_soft_find_winds(plumb_world *world);
 // The flow about each node, `since` [s] after the step began.
 void pl_soft_feel_winds(const plumb_world *world, double since);
 
+//---- rest.c --------------------------------------------------------------------------------------
+
+// Time goes on for all that are awake; `passed` [s]: the step before.
+void pl_soft_rest_pass(plumb_world *world, plumb_real passed);
+// Rested for two samples, half of sleep_time each, and may sleep.
+bool pl_soft_is_rested(const pl_softbody *item);
+// [m^2/s^2] of its fastest node.
+double pl_soft_square_speed(const plumb_world *world, const pl_softbody *item,
+                            pl_softbody_place at);
+// It is dragged by a fluid that is never the same, or whose volume moves.
+bool pl_soft_is_blown(const plumb_world *world, const pl_softbody *item);
+// [m] between a piece and the nodes that may touch it, less what both may move in the step; INFINITY where that is more than 2 cm, or
+// they do not meet.
+double pl_soft_gap(const plumb_world *world, const pl_softbody *item, pl_softbody_place at,
+                   uint32_t row, uint32_t piece, double dt);
+
 //---- contacts.c ----------------------------------------------------------------------------------
 
 // Pieces near nodes, with their bodies; which nodes. False when out of memory.
 bool pl_soft_find_near(plumb_world *world, double dt);
 uint32_t pl_soft_body_of(plumb_world *world,
                          uint32_t row); // place in the list; PL_NONE: out of memory
+// The corners of a piece about its body's centre of mass.
+void pl_soft_see_piece(const plumb_world *world, uint32_t row, uint32_t piece,
+                       pl_soft_obstacle *out);
+// Way out of a convex piece: distance of a point from its surface, below 0 inside, and the outward normal.
+double pl_soft_distance(const pl_soft_obstacle *o, double x, double y, double n[2]);
+// [m] that the pieces of a row may move in a step.
+double pl_soft_way_of_row(const plumb_world *world, uint32_t row, double dt);
+// It is solid, and the filters of both let them touch.
+bool pl_soft_meets(const plumb_world *world, uint32_t piece, const pl_softbody *item);
 // Contacts of a substep.
 void pl_soft_find_contacts(plumb_world *world, double h);
 // As pl_soft_elements. What holds by friction goes by the normal forces that bound it: pl_soft_bind, and the first passes.

@@ -14,21 +14,25 @@
 #include "world/island.h"
 #include "world/substep.h"
 #include "world/rows.h"
+#include "world/softbody_list.h"
 
 #include <math.h>
 #include <string.h>
 
 bool pl_want_softbodies(const plumb_world *world, const char **reason)
 {
-    const bool wanted = world->softbodies.count > 0;
-    *reason = wanted ? "there are soft bodies" : "there is no soft body";
+    const pl_softbodies *all = &world->softbodies;
+    const bool wanted = all->count > all->asleep_count;
+    *reason = wanted           ? "there are soft bodies"
+              : all->count > 0 ? "all soft bodies sleep"
+                               : "there is no soft body";
     return wanted;
 }
 
 void pl_softbodies_free(pl_memory *memory, pl_softbodies *s)
 {
     pl_buffer *buffers[] = { &s->items,     &s->nodes, &s->edges, &s->bends,
-                             &s->triangles, &s->rings, &s->pins };
+                             &s->triangles, &s->rings, &s->pins,  &s->rests };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -67,15 +71,15 @@ static double mass_of(const pl_softbodies *all, const pl_softbody *item, uint32_
 }
 
 // Adds to the mass of all nodes.
-static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, uint32_t first)
+static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, pl_softbody_place at)
 {
     const pl_soft_shove *pushes = all->step->pushed ? all->step->pushes.data : NULL;
-    const double mass = mass_of(all, item, first);
-    const double heavy = (pushes != NULL ? pushes[first].heavy : 0) + mass;
+    const double mass = mass_of(all, item, at.node);
+    const double heavy = (pushes != NULL ? pushes[at.node].heavy : 0) + mass;
     all->step->mass += mass;
-    for (uint32_t i = first; i < first + item->nodes; ++i) {
-        const plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
-        points_of(all->step)[i] =
+    for (uint32_t i = 0; i < item->nodes; ++i) {
+        const plumb_softbody_node *n = &pl_softbody_nodes(all)[at.node + i];
+        points_of(all->step)[at.point + i] =
             (pl_soft_point){ .x = pl_soft_exact(n->position.x, n->position_rest.x),
                              .y = pl_soft_exact(n->position.y, n->position_rest.y),
                              .vx = pl_soft_exact(n->velocity.x, n->velocity_rest.x),
@@ -96,7 +100,7 @@ static bool gather_pins(plumb_world *world, const pl_softbody *item, pl_softbody
     for (uint32_t k = 0; k < item->pins; ++k) {
         const plumb_softbody_pin *pin = &pl_softbody_pins(all)[at.pin + k];
         const uint32_t row = pl_body_row(world, pin->body);
-        pl_soft_point *p = &points_of(all->step)[at.node + pin->node];
+        pl_soft_point *p = &points_of(all->step)[at.point + pin->node];
         p->pinned = true;
         p->px = (double)pin->point.x;
         p->py = (double)pin->point.y;
@@ -120,18 +124,20 @@ static bool gather(plumb_world *world)
 {
     const pl_softbodies *all = &world->softbodies;
     pl_soft_step *s = all->step;
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     s->body_count = 0;
     s->mass = 0;
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
-        gather_nodes(all, item, at.node);
-        if (!gather_pins(world, item, at)) {
-            return false;
+        if (!item->asleep) {
+            gather_nodes(all, item, at);
+            if (!gather_pins(world, item, at)) {
+                return false;
+            }
         }
         at = pl_softbody_behind(at, item);
     }
-    s->point_count = at.node;
+    s->point_count = at.point;
     return true;
 }
 
@@ -230,26 +236,34 @@ static void pair_three(pairs *to, uint32_t a, uint32_t b, uint32_t c)
     pair(to, a, c);
 }
 
+static void pair_elements_of(const pl_softbodies *all, const pl_softbody *item,
+                             pl_softbody_place at, pairs *to)
+{
+    const uint32_t n = at.point;
+    for (uint32_t k = 0; k < item->edges; ++k) {
+        const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
+        if ((e->flags & PLUMB_EDGE_TORN) == 0) {
+            pair(to, n + e->a, n + e->b);
+        }
+    }
+    for (uint32_t k = 0; k < item->bends; ++k) {
+        const plumb_softbody_bend *e = &pl_softbody_bends(all)[at.bend + k];
+        pair_three(to, n + e->a, n + e->b, n + e->c);
+    }
+    for (uint32_t k = 0; k < item->triangles; ++k) {
+        const plumb_softbody_triangle *e = &pl_softbody_triangles(all)[at.triangle + k];
+        pair_three(to, n + e->a, n + e->b, n + e->c);
+    }
+}
+
 // Neighbours by elements.
 static void pair_elements(const pl_softbodies *all, pairs *to)
 {
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
-        const uint32_t n = at.node;
-        for (uint32_t k = 0; k < item->edges; ++k) {
-            const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
-            if ((e->flags & PLUMB_EDGE_TORN) == 0) {
-                pair(to, n + e->a, n + e->b);
-            }
-        }
-        for (uint32_t k = 0; k < item->bends; ++k) {
-            const plumb_softbody_bend *e = &pl_softbody_bends(all)[at.bend + k];
-            pair_three(to, n + e->a, n + e->b, n + e->c);
-        }
-        for (uint32_t k = 0; k < item->triangles; ++k) {
-            const plumb_softbody_triangle *e = &pl_softbody_triangles(all)[at.triangle + k];
-            pair_three(to, n + e->a, n + e->b, n + e->c);
+        if (!item->asleep) {
+            pair_elements_of(all, item, at, to);
         }
         at = pl_softbody_behind(at, item);
     }
@@ -335,17 +349,17 @@ static uint32_t pair_rest(const plumb_world *world, pairs *to, uint32_t blocks)
             to->keys[to->count++] = (pl_keyed){ pl_key(b, a), 0, 0 };
         }
     }
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
-        for (uint32_t k = 0; k < item->ring; ++k) {
-            const uint32_t node = at.node + pl_softbody_rings(all)[at.ring + k];
+        for (uint32_t k = 0; k < item->ring && !item->asleep; ++k) {
+            const uint32_t node = at.point + pl_softbody_rings(all)[at.ring + k];
             if (points_of(s)[node].block != PL_NONE) {
                 to->keys[to->count++] =
                     (pl_keyed){ pl_key(blocks, points_of(s)[node].block), 0, 0 };
             }
         }
-        blocks += item->ring > 0;
+        blocks += item->ring > 0 && !item->asleep;
         at = pl_softbody_behind(at, item);
     }
     return blocks;
@@ -436,12 +450,12 @@ static void follow_body(const plumb_world *world, pl_soft_point *p)
     p->vy = (moves ? (double)b->vy[row] : 0) + w * rx;
 }
 
-static void store_nodes(plumb_world *world)
+static void store_nodes_of(plumb_world *world, uint32_t count, pl_softbody_place at)
 {
     const pl_softbodies *all = &world->softbodies;
-    for (uint32_t i = 0; i < all->node_count; ++i) {
-        pl_soft_point *p = &points_of(all->step)[i];
-        plumb_softbody_node *n = &pl_softbody_nodes(all)[i];
+    for (uint32_t i = 0; i < count; ++i) {
+        pl_soft_point *p = &points_of(all->step)[at.point + i];
+        plumb_softbody_node *n = &pl_softbody_nodes(all)[at.node + i];
         if (p->body != PL_NONE) {
             follow_body(world, p);
         }
@@ -452,19 +466,28 @@ static void store_nodes(plumb_world *world)
     }
 }
 
-// What touches or holds does not fall asleep; what sleeps wakes.
+static void store_nodes(plumb_world *world)
+{
+    const pl_softbodies *all = &world->softbodies;
+    pl_softbody_place at = { 0 };
+    for (uint32_t i = 0; i < all->count; ++i) {
+        const pl_softbody *item = &pl_softbody_items(all)[i];
+        if (!item->asleep) {
+            store_nodes_of(world, item->nodes, at);
+            pl_softbody_see_box(world, i, at);
+        }
+        at = pl_softbody_behind(at, item);
+    }
+}
+
+// What sleeps and is pressed or pulled after all, as it was not near when the step began, wakes.
 static void stir(plumb_world *world)
 {
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t i = 0; i < s->body_count; ++i) {
         const pl_soft_body *b = &bodies_of(s)[i];
         const uint32_t row = b->touched ? pl_body_row(world, b->body) : PL_NONE;
-        if (row == PL_NONE || world->bodies.type[row] != PLUMB_DYNAMIC) {
-            continue;
-        }
-        if (row < world->dynamic_count) {
-            world->bodies.rest_time[row] = PL_NOT_RESTING;
-        } else if (pl_row_is_asleep(world, row)) {
+        if (row != PL_NONE && pl_row_is_asleep(world, row)) {
             pl_sleep_disturb(world, row);
         }
     }

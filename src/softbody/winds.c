@@ -22,7 +22,7 @@ static bool any_is_dragged(const pl_softbodies *all)
 {
     bool any = false;
     for (uint32_t i = 0; i < all->count; ++i) {
-        any |= pl_softbody_items(all)[i].damping > 0;
+        any |= pl_softbody_items(all)[i].damping > 0 && !pl_softbody_items(all)[i].asleep;
     }
     return any;
 }
@@ -102,9 +102,10 @@ void pl_soft_feel_winds(const plumb_world *world, double since)
     uint32_t first = 0;
     for (uint32_t i = 0; i < all->count && all->step->wind_count > 0; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
-        for (uint32_t k = first; k < first + item->nodes && item->damping > 0; ++k) {
+        const uint32_t count = item->asleep ? 0 : item->nodes;
+        for (uint32_t k = first; k < first + count && item->damping > 0; ++k) {
             feel(world, &item->filter, (pl_soft_point *)all->step->points.data + k, since);
         }
-        first += item->nodes;
+        first += count;
     }
 }

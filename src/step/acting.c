@@ -121,7 +121,8 @@ bool pl_acting_call(plumb_world *world)
         }
     }
     e->any_alone |= world->laws.count > 0 && pl_laws_couple(world, called);
-    e->any_alone |= world->softbodies.count > 0 && pl_softbodies_couple(world, called);
+    e->any_alone |= world->softbodies.count > world->softbodies.asleep_count &&
+                    pl_softbodies_couple(world, called);
     for (uint32_t i = 0; i < world->systems.count; ++i) {
         const pl_system *system = &world->systems.items[i];
         if (!is_of_substeps(world, system)) {

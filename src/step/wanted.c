@@ -122,8 +122,9 @@ bool pl_want_joints(const plumb_world *world, const char **reason)
 bool pl_want_waking(const plumb_world *world, const char **reason)
 {
     // Contacts of one that was destroyed in its sleep have to end.
-    return say(world->asleep_count > 0 || world->sleep.first_due != PL_NONE, reason,
-               "some bodies sleep: what touches them wakes them", "no body sleeps");
+    return say(world->asleep_count > 0 || world->softbodies.asleep_count > 0 ||
+                   world->sleep.first_due != PL_NONE,
+               reason, "some bodies sleep: what touches them wakes them", "no body sleeps");
 }
 
 bool pl_want_sleep(const plumb_world *world, const char **reason)
@@ -131,7 +132,8 @@ bool pl_want_sleep(const plumb_world *world, const char **reason)
     if (world->desc.no_sleep) {
         return say(false, reason, "", "the world does not let bodies sleep");
     }
-    return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
+    const bool soft = world->softbodies.count > world->softbodies.asleep_count;
+    return say(world->dynamic_count > 0 || soft, reason, "what rests long enough falls asleep",
                "no dynamic body is awake");
 }
 

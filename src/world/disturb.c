@@ -10,6 +10,7 @@
 #include "core/sort.h"
 #include "world/island.h"
 #include "world/rows.h"
+#include "world/softbody_list.h"
 
 static void wake_contacts(plumb_world *world, uint32_t piece)
 {
@@ -41,6 +42,7 @@ void pl_sleep_wake_swimmers(plumb_world *world, uint32_t piece)
         world->materials.fluid[world->pieces.material[piece]]) {
         wake_seen(world, &s->overlaps, s->count, world->pieces.shape[piece]);
         wake_seen(world, &s->rest_overlaps, s->rest_count, world->pieces.shape[piece]);
+        pl_softbodies_stir_near(world, piece);
     }
 }
 
@@ -56,6 +58,9 @@ void pl_sleep_stir(plumb_world *world, uint32_t row)
     b->rest_time[row] = PL_NOT_RESTING;
     if (b->island[row] != PL_NONE) {
         pl_island_make_due(world, b->island[row]);
+    }
+    if (b->type[row] != PLUMB_DYNAMIC || b->island[row] != PL_NONE) {
+        pl_softbodies_stir_by(world, row); // what is awake finds them in the waking pass
     }
     if (b->type[row] != PLUMB_DYNAMIC) {
         note_immovable(world, row);
@@ -90,6 +95,7 @@ void pl_sleep_disturb_piece(plumb_world *world, uint32_t piece)
         note_immovable(world, row);
         wake_contacts(world, piece);
         pl_sleep_wake_swimmers(world, piece);
+        pl_softbodies_stir_near(world, piece);
     }
 }
 
@@ -103,12 +109,14 @@ void pl_sleep_disturb_all(plumb_world *world)
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         world->bodies.rest_time[row] = PL_NOT_RESTING;
     }
+    pl_softbodies_stir_all(world);
 }
 
 void pl_sleep_void_contacts(plumb_world *world, uint32_t piece)
 {
     wake_contacts(world, piece);
     pl_sleep_wake_swimmers(world, piece);
+    pl_softbodies_stir_near(world, piece);
     pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
     for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
         all[c].fixed = PL_NONE;

@@ -13,4 +13,23 @@ void pl_softbody_drop_pin(plumb_world *world, uint32_t row, uint32_t pin);
 // A body goes: what it holds is free.
 void pl_softbodies_forget(plumb_world *world, plumb_body body);
 
+//---- sleep -----------------------------------------------------------------------------------------
+//
+// Changes only take down that one is due, as with islands: a step goes by who sleeps.
+
+// Takes down the box of one, as its nodes lie. O(nodes).
+void pl_softbody_see_box(plumb_world *world, uint32_t row, pl_softbody_place at);
+// Puts it to sleep where it lies.
+void pl_softbody_lay(plumb_world *world, uint32_t row, pl_softbody_place at);
+// It wakes: before soft bodies are gathered.
+void pl_softbody_rise(plumb_world *world, uint32_t row);
+// It is due, or begins to rest anew.
+void pl_softbody_stir(plumb_world *world, uint32_t row);
+// The same, and what sleeps and touches it wakes: it is about to be changed, or to go.
+void pl_softbody_disturb(plumb_world *world, uint32_t row);
+// The body of a row is changed: what it holds or may touch is stirred, where it was and where it is; a piece of it.
+void pl_softbodies_stir_by(plumb_world *world, uint32_t row);
+void pl_softbodies_stir_near(plumb_world *world, uint32_t piece);
+void pl_softbodies_stir_all(plumb_world *world);
+
 #endif

@@ -66,7 +66,7 @@ static void a_rope_of_1_kg_carries_1000(void **state)
 {
     (void)state;
     for (int hz = 30; hz <= 240; hz *= 2) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
         const plumb_body b = sim_body(w, PLUMB_DYNAMIC, 0, -2.5, 0);
         sim_add_box(w, b, 0.5, 0.5, (plumb_material)PLUMB_NULL_INIT);
         assert_int_equal(plumb_body_set_mass(w, b, 1000), PLUMB_OK);
@@ -89,7 +89,7 @@ static void a_rope_of_1_kg_carries_1000(void **state)
 // 3 m between ends 2 m apart: sag a (cosh(1 / a) - 1), 2 a sinh(1 / a) = 3.
 static double catenary_error(int nodes)
 {
-    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     const plumb_softbody s = plumb_rope_create(w, &(plumb_rope_desc){ .from = { -1, 0 },
                                                                       .to = { 1, 0 },
                                                                       .length = 3,
@@ -129,7 +129,7 @@ static void a_rope_slides_on_a_slope(void **state)
     (void)state;
     for (int k = 0; k < 2; ++k) {
         const double a = k == 0 ? -0.4 : -0.5, c = cos(a), s = sin(a);
-        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
         const plumb_body ground = sim_body(w, PLUMB_STATIC, 0, 0, a);
         sim_add_box(
             w, ground, 50, 0.5,
@@ -154,7 +154,7 @@ static void a_rope_slides_on_a_slope(void **state)
 static void gas_keeps_p_a(void **state)
 {
     (void)state;
-    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     sim_add_box(w, sim_body(w, PLUMB_STATIC, 0, -1, 0), 10, 1, (plumb_material)PLUMB_NULL_INIT);
     const plumb_softbody s = plumb_skin_create(w, &(plumb_skin_desc){ .center = { 0, 2 },
                                                                       .radius = 1,
@@ -205,7 +205,7 @@ static void jelly_keeps_its_momentum(void **state)
 static void fast_thread_does_not_tunnel(void **state)
 {
     (void)state;
-    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     sim_add_box(w, sim_body(w, PLUMB_STATIC, 5, 0, 0), 0.005, 10, (plumb_material)PLUMB_NULL_INIT);
     const plumb_softbody s = plumb_rope_create(
         w, &(plumb_rope_desc){ .from = sim_vec(0, -0.5), .to = sim_vec(0, 0.5), .nodes = 21 });
@@ -232,7 +232,7 @@ static void a_streamer_hangs_as_the_wind_has_it(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; ++k) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
         const plumb_material air = plumb_material_create(
             w,
             &(plumb_material_desc){ .fluid = true, .weightless = true, .flow_x = k == 1 ? 1 : 4 });

@@ -98,7 +98,7 @@ static void clamp_rod(row *r, int pieces, double stiffness, double mass)
 // F L^3 / 3 E I for 0.3 N and 100 N m^2: 1 mm. Answers how far off it is, over that.
 static double tip_error(int pieces, double hz)
 {
-    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     static row r;
     clamp_rod(&r, pieces, 100, 1e-6);
     r.nodes[pieces + 1].mass = (plumb_real)(0.3 / SIM_G);
@@ -149,7 +149,8 @@ static double frequency(const period *p)
 static double mode_error(int pieces)
 {
     const double beta = 1.8751040687, sigma = 0.7340955138, dt = 1 / 120.0;
-    plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .substeps = 8 });
+    plumb_world *w =
+        sim_world(&(plumb_world_desc){ .zero_gravity = true, .substeps = 8, .no_sleep = true });
     static row r;
     clamp_rod(&r, pieces, 1, 1);
     for (int i = 2; i <= pieces + 1; ++i) {
@@ -184,7 +185,7 @@ static void a_bar_stretches_as_theory_says(void **state)
     (void)state;
     const double rates[] = { 30, 60, 240 }, load = 0.2;
     for (int k = 0; k < 3; ++k) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
         plumb_softbody_node nodes[5 * 21];
         plumb_softbody_triangle triangles[4 * 20 * 2];
         plumb_softbody_pin pins[5];
@@ -247,7 +248,8 @@ static void a_string_has_its_modes(void **state)
     const int pieces = 32;
     const double l = 1.0 / pieces, dt = 1 / 480.0;
     for (int n = 1; n <= 4; ++n) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .substeps = 8 });
+        plumb_world *w =
+            sim_world(&(plumb_world_desc){ .zero_gravity = true, .substeps = 8, .no_sleep = true });
         static row r;
         r = (row){ .desc = { 0 } };
         for (int i = 0; i <= pieces; ++i) {
@@ -282,7 +284,7 @@ typedef struct hoist {
 static hoist hang(double friction, double left, double right)
 {
     hoist h;
-    h.w = sim_world(&(plumb_world_desc){ 0 });
+    h.w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     plumb_material m =
         plumb_material_create(h.w, &(plumb_material_desc){ .friction = (plumb_real)friction,
                                                            .frictionless = friction == 0 });

@@ -381,7 +381,7 @@ static void a_steady_step_allocates_nothing(void **state)
 
 //---- sleep, what did not settle ------------------------------------------------------------------
 
-// What lies on a rope stays awake, and so does what lies on that; gone is the rope, and both fall.
+// What lies on a rope sleeps with it, and so does what lies on that; gone is the rope, and both fall.
 static void nothing_sleeps_in_thin_air(void **state)
 {
     fixture *f = *state;
@@ -402,15 +402,116 @@ static void nothing_sleeps_in_thin_air(void **state)
             w, boxes[i],
             &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.4 - 0.1 * i), R(0.2) } });
     }
-    run(w, 600);
+    for (int i = 0; i < 3000 && plumb_softbody_is_awake(w, rope); ++i) {
+        run(w, 1);
+    }
     const double low = (double)plumb_body_position(w, boxes[0]).y;
     assert_true(low > 2 && (double)plumb_body_position(w, boxes[1]).y > low + 0.3);
-    assert_true(fabs((double)plumb_body_velocity(w, boxes[0]).y) < 0.01);
-    assert_true(plumb_body_is_awake(w, boxes[0]) && plumb_body_is_awake(w, boxes[1]));
+    assert_true((double)plumb_body_velocity(w, boxes[0]).y == 0);
+    assert_false(plumb_softbody_is_awake(w, rope));
+    assert_false(plumb_body_is_awake(w, boxes[0]) || plumb_body_is_awake(w, boxes[1]));
     assert_int_equal(plumb_softbody_destroy(w, rope), PLUMB_OK);
     run(w, 30);
     assert_true((double)plumb_body_position(w, boxes[0]).y < low - 1);
     assert_true((double)plumb_body_position(w, boxes[1]).y < low - 0.5);
+}
+
+static void call_sleep(const plumb_system_call *call)
+{
+    const plumb_softbody *s = call->context;
+    assert_int_equal(plumb_softbody_sleep(call->world, *s), PLUMB_E_LOCKED);
+    assert_int_equal(plumb_softbody_wake(call->world, *s), PLUMB_OK);
+}
+
+// At once and whatever its speed, with what it holds; who may not sleep is told.
+static void sleep_by_a_call(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    const plumb_softbody stale = { { 99, 9 } };
+    const plumb_softbody rope = plumb_rope_create(
+        w, &(plumb_rope_desc){
+               .from = { 0, 8 }, .to = { 0, 6 }, .hold_from = true, .to_body = f->dynamic });
+    plumb_softbody_desc d;
+    run(w, 20);
+    assert_false(plumb_softbody_is_awake(w, stale) || plumb_softbody_is_awake(NULL, rope));
+    assert_false(plumb_softbody_no_sleep(w, stale) || plumb_softbody_no_sleep(NULL, rope));
+    assert_int_equal(plumb_softbody_wake(w, stale), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_softbody_sleep(w, stale), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_softbody_set_no_sleep(w, stale, true), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_softbody_wake(NULL, rope), PLUMB_E_NULL);
+    assert_int_equal(plumb_softbody_sleep(NULL, rope), PLUMB_E_NULL);
+    assert_int_equal(plumb_softbody_set_no_sleep(NULL, rope, true), PLUMB_E_NULL);
+
+    assert_int_equal(plumb_softbody_set_no_sleep(w, rope, true), PLUMB_OK);
+    assert_true(plumb_softbody_no_sleep(w, rope));
+    assert_int_equal(plumb_softbody_sleep(w, rope), PLUMB_E_STATE);
+    assert_non_null(strstr(f->logged, "soft body that may not sleep"));
+    assert_int_equal(plumb_body_sleep(w, f->dynamic), PLUMB_E_STATE);
+    plumb_softbody_set_no_sleep(w, rope, false);
+    plumb_body_set_no_sleep(w, f->dynamic, true);
+    assert_int_equal(plumb_softbody_sleep(w, rope), PLUMB_E_STATE);
+    assert_non_null(strstr(f->logged, "one that may not sleep"));
+    plumb_body_set_no_sleep(w, f->dynamic, false);
+    plumb_world_set_sleep(w, false, 0, 0);
+    assert_int_equal(plumb_softbody_sleep(w, rope), PLUMB_E_STATE);
+    assert_non_null(strstr(f->logged, "no_sleep"));
+    plumb_world_set_sleep(w, true, 0, 0);
+
+    assert_int_equal(plumb_softbody_sleep(w, rope), PLUMB_OK);
+    assert_int_equal(plumb_softbody_sleep(w, rope), PLUMB_OK);
+    assert_false(plumb_softbody_is_awake(w, rope) || plumb_body_is_awake(w, f->dynamic));
+    assert_int_equal(plumb_world_stats(w).soft_asleep, 1);
+    run(w, 10);
+    assert_false(plumb_softbody_is_awake(w, rope) || plumb_body_is_awake(w, f->dynamic));
+    plumb_softbody_get(w, rope, &d);
+    assert_true(d.asleep && d.nodes[12].velocity.y == 0);
+    assert_int_equal(plumb_body_wake(w, f->dynamic),
+                     PLUMB_OK); // and to sleep again before a step has seen it
+    assert_int_equal(plumb_body_sleep(w, f->dynamic), PLUMB_OK);
+    assert_int_equal(plumb_softbody_sleep(w, rope), PLUMB_OK);
+    run(w, 1);
+    assert_false(plumb_softbody_is_awake(w, rope) || plumb_body_is_awake(w, f->dynamic));
+    plumb_softbody its = rope;
+    assert_int_equal(plumb_system_create(w, &(plumb_system_desc){ .name = "rouse",
+                                                                  .phase = PLUMB_PHASE_BEGIN,
+                                                                  .run = call_sleep,
+                                                                  .context = &its }),
+                     PLUMB_OK);
+    run(w, 1); // it wakes for this step
+    assert_true(plumb_softbody_is_awake(w, rope) && plumb_body_is_awake(w, f->dynamic));
+    plumb_system_enable(w, "rouse", false);
+    assert_int_equal(plumb_body_sleep(w, f->dynamic), PLUMB_OK); // from its other end
+    assert_false(plumb_softbody_is_awake(w, rope));
+    assert_int_equal(plumb_softbody_destroy(w, rope), PLUMB_OK);
+    assert_true(plumb_body_is_awake(w, f->dynamic));
+    assert_int_equal(plumb_world_stats(w).soft_asleep, 0);
+    run(w, 1);
+}
+
+// As a descriptor may have it: it sleeps until something comes near.
+static void made_asleep(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_softbody_node n[2] = {
+        { .position = { 0, 20 }, .velocity = { 3, 0 }, .mass = 1, .radius = 1 },
+        { .position = { 1, 20 }, .mass = 1 }
+    };
+    plumb_softbody_desc d = { .nodes = n, .node_count = 2, .asleep = true };
+    const plumb_softbody s = plumb_softbody_create(w, &d);
+    run(w, 30);
+    assert_false(plumb_softbody_is_awake(w, s));
+    plumb_softbody_get(w, s, &d);
+    assert_true(d.asleep && d.nodes[0].velocity.x == 0 && d.nodes[0].position.x == 0);
+    plumb_body_set_position(w, f->dynamic, plumb_v2(0, R(21.9)));
+    run(w, 1);
+    assert_true(plumb_softbody_is_awake(w, s));
+    d = (plumb_softbody_desc){ .nodes = n, .node_count = 2, .asleep = true, .no_sleep = true };
+    assert_true(plumb_softbody_is_awake(w, plumb_softbody_create(w, &d)));
+    plumb_world_set_sleep(w, false, 0, 0);
+    d.no_sleep = false;
+    assert_true(plumb_softbody_is_awake(w, plumb_softbody_create(w, &d)));
 }
 
 // A rope as stiff as a rod of steel, under boxes of 22 tons with a single substep at 10 Hz: the iteration ends before it has settled.
@@ -455,6 +556,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_goes_takes_its_pins_along, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_image_is_taken_while_it_tears, set_up, tear_down),
         cmocka_unit_test_setup_teardown(nothing_sleeps_in_thin_air, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(sleep_by_a_call, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(made_asleep, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_did_not_settle_is_told, set_up, tear_down),
         cmocka_unit_test(threads_and_widths_change_no_bit),
         cmocka_unit_test(recordings_have_it),

@@ -640,6 +640,59 @@ static void change_waves(session *s)
                                             .no_damping = one_in(s, 3) });
 }
 
+// Bodies are cut, shatter, become one, grow, and may break.
+static void change_fracture(session *s)
+{
+    plumb_world *w = s->world;
+    const plumb_body b = s->body[pick(s, SESSION_BODIES)], other = s->body[pick(s, SESSION_BODIES)];
+    const plumb_vec2 aside = place(s, -0.3, 0.3, -0.3, 0.3), along = place(s, -1, 1, -1, 1);
+    const plumb_vec2 at = plumb_body_position(w, b);
+    const plumb_vec2 point = { at.x + aside.x, at.y + aside.y };
+    const plumb_real factor = number(s, 0.6, 1.5);
+    plumb_body parts[8];
+    switch (pick(s, 5)) {
+    case 0:
+        plumb_body_cut(w, b, point, along, parts, 8);
+        break;
+    case 1:
+        plumb_body_shatter(
+            w, b, &(plumb_shatter_desc){ .point = point, .cells = 5, .seed = pick(s, 1000) }, parts,
+            8);
+        break;
+    case 2:
+        plumb_body_merge(w, b, other, NULL);
+        break;
+    case 3:
+        plumb_body_scale(w, b, factor);
+        break;
+    default:
+        plumb_body_set_break_impulse(w, b, one_in(s, 3) ? 0 : number(s, 0.1, 5));
+        plumb_body_set_break_force(w, b, one_in(s, 3) ? number(s, 1, 500) : 0);
+        plumb_body_set_break_cells(w, b, 4);
+        break;
+    }
+}
+
+// Whether soft bodies sleep, and those that hold them.
+static void change_soft_sleep(session *s, plumb_softbody soft)
+{
+    plumb_world *w = s->world;
+    switch (pick(s, 4)) {
+    case 0:
+        plumb_softbody_sleep(w, soft);
+        break;
+    case 1:
+        plumb_softbody_wake(w, soft);
+        break;
+    case 2:
+        plumb_softbody_set_no_sleep(w, soft, !plumb_softbody_no_sleep(w, soft));
+        break;
+    default:
+        plumb_softbody_hold(w, soft, 1, s->body[pick(s, SESSION_BODIES)], plumb_v2(0, 0));
+        break;
+    }
+}
+
 // Ropes between a body and a place, jelly, skins: made, cut, taken away. Worlds that wrap refuse them.
 static void change_softbodies(session *s)
 {
@@ -649,6 +702,10 @@ static void change_softbodies(session *s)
     const plumb_vec2 at = place(s, -2, 2, 1, 2), far = place(s, 2, 3, 2, 3);
     const bool first = one_in(s, 2), second = one_in(s, 2);
     const uint32_t which = pick(s, 4), edge = pick(s, 6);
+    if (count > 0 && one_in(s, 3)) {
+        change_soft_sleep(s, all[which % (uint32_t)(count < 4 ? count : 4)]);
+        return;
+    }
     if (count > 2 || (count > 0 && first && second)) {
         plumb_softbody_destroy(w, all[which % (uint32_t)count]);
     } else if (count > 0 && first) {
@@ -710,7 +767,7 @@ static void change_world(session *s)
 {
     plumb_world *w = s->world;
     uint32_t m = pick(s, SESSION_MATERIALS);
-    switch (pick(s, 13)) {
+    switch (pick(s, 14)) {
     case 0:
         plumb_world_set_gravity(w, place(s, -2, 2, -12, 0));
         break;
@@ -753,6 +810,9 @@ static void change_world(session *s)
         break;
     case 11:
         change_waves(s);
+        break;
+    case 12:
+        change_fracture(s);
         break;
     default:
         plumb_commands_apply(w);

@@ -99,6 +99,39 @@ static void json_keeps_them(void **state)
     }
 }
 
+// `sleep`, `asleep`, awake(), wake(), sleep(); JSON has who sleeps.
+static void words_of_sleep(void **state)
+{
+    (void)state;
+    scene *a =
+        load("scene{ duration = 12 }\n"
+             "body{ type = 'static', box{30, 1, at = {0, -0.5}} }\n"
+             "local r = rope{ from = {-1, 0.6}, to = {1, 0.6}, drag = 1 }\n"
+             "rope{ from = {4, 0.6}, to = {6, 0.6}, drag = 1, sleep = false }\n"
+             "local s = softbody{ nodes = {{12, 9, 0, 0, 1, 0.1}}, asleep = true }\n"
+             "expect{ 'up', at = 0.1, test = function() return r:awake() and not s:awake() end }\n"
+             "expect{ 'rests', at = 8, test = function() return not r:awake() end }\n"
+             "at(9, function() r:wake() end)\n"
+             "expect{ 'woken', at = 9.1, test = function() return r:awake() end }\n"
+             "at(9.2, function() r:sleep() end)\n"
+             "expect{ 'sleeps', at = 9.25, test = function() return not r:awake() end }\n");
+    run_and_hold(a);
+    plumb_softbody p[8], q[8];
+    size_t size;
+    char *json = export_json(a, &size);
+    scene *b = load_as("test.json", json, size, NULL);
+    assert_int_equal(count_of(a, p), 3);
+    assert_int_equal(count_of(b, q), 3);
+    for (int i = 0; i < 3; ++i) {
+        assert_int_equal(plumb_softbody_is_awake(scene_world(a), p[i]), i == 1);
+        assert_int_equal(plumb_softbody_is_awake(scene_world(b), q[i]), i == 1);
+        assert_int_equal(plumb_softbody_no_sleep(scene_world(b), q[i]), i == 1);
+    }
+    free(json);
+    scene_destroy(a);
+    scene_destroy(b);
+}
+
 static void mistakes_are_told(void **state)
 {
     (void)state;
@@ -156,6 +189,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_make_them),
         cmocka_unit_test(json_keeps_them),
+        cmocka_unit_test(words_of_sleep),
         cmocka_unit_test(mistakes_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -124,6 +124,9 @@ static void print_settings(const scene_run *run, const char *path)
         "%u shapes of %u pieces\n",
         (double)run->steps * run->info.dt, run->steps, s.bodies, s.moving, s.asleep, s.islands,
         s.islands == 1 ? "" : "s", s.statics, s.shapes, s.pieces);
+    if (s.soft_asleep > 0) {
+        printf("  soft bodies asleep: %u\n", s.soft_asleep);
+    }
     printf(
         "  pairs near: %u, contacts: %u, their points: %u, colours: %u, pair list rebuilds: %u\n",
         s.pairs, s.contacts, s.points, s.colors, s.pair_rebuilds);

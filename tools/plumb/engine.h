@@ -154,6 +154,7 @@ typedef struct engine_stats {
     unsigned bodies, moving, asleep, islands, statics, shapes, pieces, pairs, contacts, points,
         colors, overflow;
     unsigned pair_rebuilds;
+    unsigned soft_asleep; ///< soft bodies that sleep
     unsigned soft_missed; ///< substeps in all whose soft bodies had not settled
     unsigned cut_chains;  ///< contacts in all whose impacts in a substep were not all followed
     double max_penetration, mean_penetration; ///< [m]

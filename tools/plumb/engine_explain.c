@@ -299,7 +299,7 @@ static bool is_once(const engine_pass *pass)
            strcmp(pass->phase, "store") == 0;
 }
 
-/// Of all soft bodies.
+/// Of all soft bodies that are awake.
 static int soft_nodes(const plumb_world *world)
 {
     plumb_softbody some[64];
@@ -307,7 +307,7 @@ static int soft_nodes(const plumb_world *world)
     int nodes = 0;
     const int count = plumb_world_softbodies(world, some, 64);
     for (int i = 0; i < count && i < 64; i++) {
-        nodes += plumb_softbody_get(world, some[i], &d) == PLUMB_OK ? d.node_count : 0;
+        nodes += plumb_softbody_get(world, some[i], &d) == PLUMB_OK && !d.asleep ? d.node_count : 0;
     }
     return nodes;
 }

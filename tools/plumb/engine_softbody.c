@@ -157,7 +157,8 @@ static bool add_one(const engine_stage *stage, plumb_softbody body, int index, r
     if (plumb_softbody_get(stage->world, body, &d) != PLUMB_OK) {
         return true;
     }
-    const render_style own = style_of(stage, body, index);
+    render_style own = style_of(stage, body, index);
+    own.kind = d.asleep ? RENDER_ASLEEP : own.kind;
     render_style gas = own;
     gas.color = own.color.a > 0 ? own.color : render_palette(own.palette);
     gas.color.a = 0x50;

@@ -283,6 +283,7 @@ engine_stats pl_stage_stats(const engine_stage *stage)
     plumb_stats s = plumb_world_stats(stage->world);
     return (engine_stats){
         .soft_missed = s.soft_missed,
+        .soft_asleep = s.soft_asleep,
         .cut_chains = s.cut_chain_count,
         .step_count = s.step_count,
         .time = s.time,

@@ -95,9 +95,10 @@ void explain_json(const explain_report *r)
     printf(", \"substeps\": %d, \"iterations\": %d, \"width\": %d, \"dt\": %.17g, \"steps\": "
            "%lld,\n  ",
            info->substeps, info->iterations, info->width, info->dt, r->run->steps);
-    printf("\"bodies\": %u, \"moving\": %u, \"asleep\": %u, \"shapes\": %u, \"pieces\": %u, "
+    printf("\"bodies\": %u, \"moving\": %u, \"asleep\": %u, \"soft_asleep\": %u, \"shapes\": %u, "
+           "\"pieces\": %u, "
            "\"pairs\": %u, \"contacts\": %u,\n  ",
-           s.bodies, s.moving, s.asleep, s.shapes, s.pieces, s.pairs, s.contacts);
+           s.bodies, s.moving, s.asleep, s.soft_asleep, s.shapes, s.pieces, s.pairs, s.contacts);
     printf("\"lacks\": [");
     for (int i = 0; r->run->engine->lacks(i) != NULL; i++) {
         printf("%s\"%s\"", i == 0 ? "" : ", ", r->run->engine->lacks(i));

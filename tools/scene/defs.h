@@ -298,7 +298,7 @@ typedef struct sc_softbody_def {
     double node_count, columns, row_count;
     char from_body[SC_NAME_SIZE], to_body[SC_NAME_SIZE];
     int hold, held, shape_count;
-    bool pushes, nodes, edges, bends, triangles, ring, pins;
+    bool pushes, sleep, asleep, nodes, edges, bends, triangles, ring, pins;
     sc_color color;
     sc_filter filter;
 } sc_softbody_def;

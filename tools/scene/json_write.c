@@ -203,6 +203,8 @@ static void write_softbody(sc_json_writer *w, const sc_softbody *b)
     d.pressure = (double)now.pressure;
     d.ambient = (double)now.ambient;
     d.area = (double)now.area;
+    d.sleep = !now.no_sleep;
+    d.asleep = now.asleep;
     SC_GIVE(list, &d, sc_softbody_def, friction);
     SC_GIVE(list, &d, sc_softbody_def, drag);
     SC_GIVE(list, &d, sc_softbody_def, nodes);
@@ -214,6 +216,8 @@ static void write_softbody(sc_json_writer *w, const sc_softbody *b)
     SC_MARK(list, &d, sc_softbody_def, pressure, now.ring_count > 0);
     SC_MARK(list, &d, sc_softbody_def, ambient, now.ring_count > 0);
     SC_MARK(list, &d, sc_softbody_def, area, now.ring_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, sleep, now.no_sleep);
+    SC_MARK(list, &d, sc_softbody_def, asleep, now.asleep);
     sc_json_object(w, list, &d, NULL, &(sc_json_origin){ .is_state = true, .soft = &now });
 }
 

@@ -337,6 +337,7 @@ const sc_list sc_list_source = { "air_source", source_rows, COUNT(source_rows) }
 #define ROW_STIFFNESS(unit) { "stiffness",  SC_NUMBER,  AT(T, stiffness),    0, 1e15, unit, 0, SC_ABOVE }
 #define ROW_GAS_AMBIENT   { "ambient",      SC_NUMBER,  AT(T, ambient),      0, 1e12, "N/m", 0, 0 }
 #define ROW_GAS_PRESSURE  { "pressure",     SC_NUMBER,  AT(T, pressure),     0, 1e12, "N/m", 0, 0 }
+#define ROW_SOFT_SLEEP    { "sleep",        SC_BOOL,    AT(T, sleep),        0, 0, NULL, 0, 0 }
 #define ROW_SOFT_NODES    { "nodes",        SC_INTEGER, AT(T, node_count),   2, 10000, "1", 0, 0 }
 #define ROW_SOFT_VELOCITY { "velocity",     SC_VEC2,    AT(T, velocity),     -1e6, 1e6, "m/s", 0, 0 }
 #define ROW_PART(name)    { #name,          SC_TABLE,   AT(T, name),         0, 0, NULL, 0, 0 }
@@ -350,7 +351,7 @@ static const sc_field rope_rows[] = {
     { "length",       SC_NUMBER, AT(T, length),       0, 1e6, "m", 0, SC_ABOVE },
     ROW_SOFT_MASS, ROW_SOFT_NODES,
     { "pushes",       SC_BOOL,   AT(T, pushes),       0, 0, NULL, 0, 0 },
-    ROW_SOFT_RADIUS, ROW_STIFFNESS("N"),
+    ROW_SOFT_RADIUS, ROW_SOFT_SLEEP, ROW_STIFFNESS("N"),
     { "to",           SC_VEC2,   AT(T, to),           -1e9, 1e9, "m", 0, SC_REQUIRED },
     { "to_body",      SC_BODY,   AT(T, to_body),      0, 0, NULL, 0, 0 },
     { "yield_strain", SC_NUMBER, AT(T, yield_strain), 0, 1e6, "1", 0, 0 },
@@ -364,7 +365,7 @@ static const sc_field cloth_rows[] = {
     { "rows",    SC_INTEGER, AT(T, row_count), 1, 300, "1", 0, 0 },
     { "shear",   SC_NUMBER,  AT(T, shear),     0, 1e15, "N/m", 0, 0 },
     { "size",    SC_VEC2,    AT(T, size),      1e-6, 1e6, "m", 0, SC_REQUIRED },
-    ROW_STIFFNESS("N/m"),
+    ROW_SOFT_SLEEP, ROW_STIFFNESS("N/m"),
 };
 static const sc_field jelly_rows[] = {
     ROW_CATEGORY, ROW_COLLIDES, ROW_SOFT_COLOR, ROW_SOFT_DAMPING("s"),
@@ -372,6 +373,7 @@ static const sc_field jelly_rows[] = {
     ROW_SOFT_DRAG, ROW_SOFT_FRICTION, ROW_IGNORES,
     { "poisson", SC_NUMBER, AT(T, poisson),     0, 0.95, "1", 0, 0 },
     { "shape",   SC_SHAPES, AT(T, shape_count), 0, 0, NULL, SC_REST, 0 },
+    ROW_SOFT_SLEEP,
     { "spacing", SC_NUMBER, AT(T, spacing),     0, 1e6, "m", 0, SC_ABOVE },
     ROW_SOFT_VELOCITY,
     { "young",   SC_NUMBER, AT(T, young),       0, 1e15, "N/m", 0, SC_ABOVE },
@@ -379,13 +381,15 @@ static const sc_field jelly_rows[] = {
 static const sc_field balloon_rows[] = {
     ROW_GAS_AMBIENT, ROW_SOFT_AT, ROW_BENDING, ROW_BREAK_STRAIN, ROW_CATEGORY, ROW_COLLIDES, ROW_SOFT_COLOR,
     ROW_SOFT_DAMPING("N s"), ROW_SOFT_DRAG, ROW_SOFT_FRICTION, ROW_IGNORES, ROW_SOFT_MASS, ROW_SOFT_NODES,
-    ROW_GAS_PRESSURE, ROW_SOFT_RADIUS, ROW_STIFFNESS("N"), ROW_SOFT_VELOCITY,
+    ROW_GAS_PRESSURE, ROW_SOFT_RADIUS, ROW_SOFT_SLEEP, ROW_STIFFNESS("N"), ROW_SOFT_VELOCITY,
 };
 static const sc_field softbody_rows[] = {
     ROW_GAS_AMBIENT,
-    { "area", SC_NUMBER, AT(T, area), 0, 1e12, "m^2", 0, 0 },
+    { "area",   SC_NUMBER, AT(T, area),   0, 1e12, "m^2", 0, 0 },
+    { "asleep", SC_BOOL,   AT(T, asleep), 0, 0, NULL, 0, 0 },
     ROW_PART(bends), ROW_CATEGORY, ROW_COLLIDES, ROW_SOFT_COLOR, ROW_SOFT_DRAG, ROW_PART(edges), ROW_SOFT_FRICTION,
-    ROW_IGNORES, ROW_PART(nodes), ROW_PART(pins), ROW_GAS_PRESSURE, ROW_PART(ring), ROW_PART(triangles),
+    ROW_IGNORES, ROW_PART(nodes), ROW_PART(pins), ROW_GAS_PRESSURE, ROW_PART(ring), ROW_SOFT_SLEEP,
+    ROW_PART(triangles),
 };
 const sc_list sc_list_softbodies[SC_SOFTBODY_KINDS] = {
     [SC_ROPE]     = { "rope",     rope_rows,     COUNT(rope_rows) },

@@ -75,7 +75,8 @@ static plumb_softbody make_rope(scene *s, const sc_site *site, const sc_softbody
                                    .hold_to = (d->hold & SC_HOLD_TO) != 0,
                                    .from_body = end_of(s, site, "from_body", d->from_body),
                                    .to_body = end_of(s, site, "to_body", d->to_body),
-                                   .filter = filter_of(s, site, list, d) };
+                                   .filter = filter_of(s, site, list, d),
+                                   .no_sleep = GIVEN(list, sleep) && !d->sleep };
     return plumb_rope_create(s->world, &desc);
 }
 
@@ -99,7 +100,8 @@ static plumb_softbody make_cloth(scene *s, const sc_site *site, const sc_softbod
                                     .break_strain = (plumb_real)d->break_strain,
                                     .hold_top = d->held == SC_HELD_TOP,
                                     .hold_corners = d->held == SC_HELD_CORNERS,
-                                    .filter = filter_of(s, site, list, d) };
+                                    .filter = filter_of(s, site, list, d),
+                                    .no_sleep = GIVEN(list, sleep) && !d->sleep };
     return plumb_cloth_create(s->world, &desc);
 }
 
@@ -124,7 +126,8 @@ static plumb_softbody make_jelly(scene *s, const sc_site *site, const sc_softbod
                                     .drag = (plumb_real)d->drag,
                                     .friction = OR_NONE(list, friction),
                                     .velocity = vec(d->velocity),
-                                    .filter = filter_of(s, site, list, d) };
+                                    .filter = filter_of(s, site, list, d),
+                                    .no_sleep = GIVEN(list, sleep) && !d->sleep };
     return plumb_jelly_create(s->world, &desc);
 }
 
@@ -146,7 +149,8 @@ static plumb_softbody make_balloon(scene *s, const sc_site *site, const sc_softb
                                    .friction = OR_NONE(list, friction),
                                    .break_strain = (plumb_real)d->break_strain,
                                    .velocity = vec(d->velocity),
-                                   .filter = filter_of(s, site, list, d) };
+                                   .filter = filter_of(s, site, list, d),
+                                   .no_sleep = GIVEN(list, sleep) && !d->sleep };
     return plumb_skin_create(s->world, &desc);
 }
 
@@ -325,7 +329,9 @@ static plumb_softbody make_plain(scene *s, const sc_site *site, const sc_softbod
                                  .pressure = (plumb_real)d->pressure,
                                  .ambient = (plumb_real)d->ambient,
                                  .area = (plumb_real)d->area,
-                                 .filter = filter_of(s, site, list, d) };
+                                 .filter = filter_of(s, site, list, d),
+                                 .no_sleep = GIVEN(list, sleep) && !d->sleep,
+                                 .asleep = d->asleep };
     take_nodes(s, site, table, &desc);
     take_edges(s, site, table, &desc);
     take_bends(s, site, table, &desc);
@@ -544,6 +550,31 @@ static int soft_measure(lua_State *L)
     return 1;
 }
 
+// rope:awake(), wake(), sleep(): as of bodies
+static int soft_awake(lua_State *L)
+{
+    const sc_site site = sc_here(sc_of(L), "awake");
+    plumb_softbody_desc now;
+    lua_pushboolean(L, plumb_softbody_is_awake(sc_of(L)->world, self_of(L, &site, &now)));
+    return 1;
+}
+
+static int soft_wake(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const sc_site site = sc_here(s, "wake");
+    plumb_softbody_desc now;
+    return done(s, &site, plumb_softbody_wake(s->world, self_of(L, &site, &now)));
+}
+
+static int soft_sleep(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const sc_site site = sc_here(s, "sleep");
+    plumb_softbody_desc now;
+    return done(s, &site, plumb_softbody_sleep(s->world, self_of(L, &site, &now)));
+}
+
 // rope:remove()
 static int soft_remove(lua_State *L)
 {
@@ -575,11 +606,12 @@ scene_softbody scene_get_softbody(const scene *s, plumb_softbody handle)
 
 void sc_open_softbody(lua_State *L)
 {
-    static const luaL_Reg methods[] = {
-        { "hold", soft_hold },       { "release", soft_release }, { "cut", soft_cut },
-        { "set_gas", soft_set_gas }, { "node", soft_node },       { "count", soft_count },
-        { "measure", soft_measure }, { "remove", soft_remove },   { NULL, NULL }
-    };
+    static const luaL_Reg methods[] = { { "hold", soft_hold },       { "release", soft_release },
+                                        { "cut", soft_cut },         { "set_gas", soft_set_gas },
+                                        { "node", soft_node },       { "count", soft_count },
+                                        { "measure", soft_measure }, { "remove", soft_remove },
+                                        { "awake", soft_awake },     { "wake", soft_wake },
+                                        { "sleep", soft_sleep },     { NULL, NULL } };
     luaL_newmetatable(L, META);
     lua_newtable(L);
     luaL_setfuncs(L, methods, 0);

@@ -141,6 +141,7 @@ typedef struct pl_liquid_ring {
 typedef struct pl_liquid_softbody {
     plumb_softbody entity;
     uint32_t first, count; // nodes
+    uint32_t point;        // of the step of soft bodies, where its nodes begin
     double held[3];        // as that of pl_liquid_body
     double mass;           // [kg]
     double x, y, inertia;  // [m] centre of mass, [kg m^2]

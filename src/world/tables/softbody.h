@@ -14,11 +14,20 @@ typedef struct pl_softbody {
     plumb_real friction, damping;
     plumb_real pressure, ambient, area; // area: at rest
     plumb_filter filter;
+    bool asleep, due, no_sleep; // due: it sleeps, and wakes in the next step
+    uint8_t rest_samples; // as of bodies: 2 if it rested for two, half of sleep_time each
+    plumb_real rest_time; // [s] likewise; below 0: it moves or was changed
+    plumb_vec2 low, high; // [m] corners of a box round its nodes, and 2 cm more
 } pl_softbody;
 
-// Where those of a soft body begin.
+// Where a node was at the last sample of its rest, and its way since the sample before.
+typedef struct pl_soft_rest {
+    plumb_real x, y, dx, dy; // [m]
+} pl_soft_rest;
+
+// Where those of a soft body begin; points: of a step, in which what sleeps has none.
 typedef struct pl_softbody_place {
-    uint32_t node, edge, bend, triangle, ring, pin;
+    uint32_t node, edge, bend, triangle, ring, pin, point;
 } pl_softbody_place;
 
 // A node in a step.
@@ -31,6 +40,7 @@ typedef struct pl_soft_point {
     double push_x, push_y; // [N] of the liquid
     double way_x, way_y;   // [m/s] as it goes by what the liquid has found
     double follow;         // [s] of dampers towards that, over stiffness; 0: none
+    double carried;        // [kg] of liquid that goes along with it
     double friction;     // [-]
     double rx, ry;       // [m] of one that is pinned to a body: from its centre of mass, now
     double px, py;       // [m] the same in the body's frame; in the world where no body holds it
@@ -119,7 +129,10 @@ typedef struct pl_soft_step {
 typedef struct pl_softbodies {
     pl_buffer items;                                       // pl_softbody
     pl_buffer nodes, edges, bends, triangles, rings, pins; // plumb_softbody_...; of rings uint32_t
-    uint32_t count, node_count, edge_count, bend_count, triangle_count, ring_count, pin_count;
+    pl_buffer rests;                                       // pl_soft_rest, one a node
+    uint32_t asleep_count;                                 // soft bodies
+    uint32_t count, node_count, edge_count, bend_count, triangle_count, ring_count, pin_count,
+        rest_count;
     uint32_t missed_count; // substeps in all that ended before they had settled
     pl_soft_step *step; // NULL: no step has needed it yet
 } pl_softbodies;
@@ -159,17 +172,23 @@ static inline plumb_softbody_pin *pl_softbody_pins(const pl_softbodies *s)
     return (plumb_softbody_pin *)s->pins.data;
 }
 
+static inline pl_soft_rest *pl_softbody_rests(const pl_softbodies *s)
+{
+    return (pl_soft_rest *)s->rests.data;
+}
+
 // The places behind those of a soft body.
 static inline pl_softbody_place pl_softbody_behind(pl_softbody_place at, const pl_softbody *s)
 {
     return (pl_softbody_place){ at.node + s->nodes, at.edge + s->edges,
                                 at.bend + s->bends, at.triangle + s->triangles,
-                                at.ring + s->ring,  at.pin + s->pins };
+                                at.ring + s->ring,  at.pin + s->pins,
+                                at.point + (s->asleep ? 0 : s->nodes) };
 }
 
 static inline pl_softbody_place pl_softbody_place_of(const pl_softbodies *s, uint32_t row)
 {
-    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_softbody_place at = { 0 };
     for (uint32_t i = 0; i < row; ++i) {
         at = pl_softbody_behind(at, &pl_softbody_items(s)[i]);
     }
