@@ -28,6 +28,7 @@
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
 #define OFF         1e-2 // likewise: of islands that nobody asked for, not solved, more or less (hard.c)
+#define HOPELESS    60 // the same where a sweep of the step has missed
 #define UNASKED     8  // the same in a world of the soft step: a frame is not to be missed for it
 #define MOST_CHANGE 4  // of the speeds that rows have to undo
 #define LONGEST     20 // step of the shifts, in steps by slip alone
@@ -336,7 +337,8 @@ void pl_exact_solve(pl_exact_system *s)
     const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
     const int most_stalls = pulls ? PULL_STALLS : STALLS;
     const bool unasked = s->world->solver.hard_cluster != PL_NONE;
-    const uint32_t most_factored = s->exact->factored + (unasked ? UNASKED : FACTORS);
+    const uint32_t spend = unasked ? UNASKED : s->island->hopeless ? HOPELESS : FACTORS;
+    const uint32_t most_factored = s->exact->factored + spend;
     double left = 0, before = INFINITY, best = INFINITY;
     for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].next = 0;
@@ -379,6 +381,7 @@ void pl_exact_solve(pl_exact_system *s)
     }
     if (!pulls) { // what cannot be undone is no miss
         s->exact->missed += s->missed;
+        s->island->hopeless |= s->missed;
         const double told =
             s->missed ? left : pl_lesser(left, (double)s->world->desc.exact_tolerance);
         s->exact->residual = pl_greater(s->exact->residual, told);

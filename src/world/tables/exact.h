@@ -27,6 +27,7 @@ typedef struct pl_exact_island {
     uint32_t first_node, end_node, first_item, end_item, first_row, end_row;
     bool missed; // the tolerance, when last solved
     bool solved; // more or less, in some substep of the step
+    bool hopeless; // a sweep that relaxes has missed it in this step
 } pl_exact_island;
 
 typedef struct pl_exact_solver {
