@@ -225,7 +225,8 @@ typedef struct plumb_stats {
     uint32_t fine_substeps;      ///< as many as each of them took; 0: there are none
     uint32_t soft_missed;        ///< substeps in all whose soft bodies had not settled when the iteration ended (after 48
                                  ///< passes); the first one is also a warning in the log
-    uint32_t soft_asleep;        ///< soft bodies that sleep
+    uint32_t soft_count;         ///< soft bodies that there are
+    uint32_t soft_asleep;        ///< of those, asleep
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something
     int simd_width;              ///< lanes in use

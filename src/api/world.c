@@ -462,6 +462,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .exact_residual = world->exact.residual,
         .cut_chain_count = world->solver.cut_count,
         .soft_missed = world->softbodies.missed_count,
+        .soft_count = world->softbodies.count,
         .soft_asleep = world->softbodies.asleep_count,
         .arrested_count = world->arrested_count,
         .alarm_count = world->watchdog.total,

@@ -126,17 +126,23 @@ static void tally_joints(const search *s)
     }
 }
 
-static bool moves_by_itself(const search *s, uint32_t row)
+// A kinematic body of that row comes along a normal, at a point beside its centre.
+static bool comes(const search *s, uint32_t row, double rx, double ry, double nx, double ny)
 {
     const pl_bodies *b = &s->world->bodies;
+    const double w = (double)b->w[row];
     return row >= s->dynamic && row < s->movable &&
-           (b->vx[row] != 0 || b->vy[row] != 0 || b->w[row] != 0);
+           ((double)b->vx[row] - w * ry) * nx + ((double)b->vy[row] + w * rx) * ny > 0;
 }
 
 static bool is_crushing(const search *s, uint32_t i)
 {
-    return (moves_by_itself(s, s->ends[i].a) || moves_by_itself(s, s->ends[i].b)) &&
-           pl_is_near(&pl_manifolds(&s->world->narrow)[i], -CRUSHED);
+    const pl_manifold *m = &pl_manifolds(&s->world->narrow)[i];
+    const pl_manifold_point *p = &m->point[0];
+    const double nx = (double)m->nx, ny = (double)m->ny;
+    return pl_is_near(m, -CRUSHED) &&
+           (comes(s, s->ends[i].a, (double)p->ax, (double)p->ay, nx, ny) ||
+            comes(s, s->ends[i].b, (double)p->bx, (double)p->by, -nx, -ny));
 }
 
 static void tally_contacts(const search *s)

@@ -178,7 +178,7 @@ static uint64_t digest(uint64_t sum, const void *data, size_t size)
 
 static trace look(const plumb_world *w)
 {
-    _Static_assert(sizeof(plumb_stats) == 3 * sizeof(double) + 28 * sizeof(uint32_t) +
+    _Static_assert(sizeof(plumb_stats) == 3 * sizeof(double) + 30 * sizeof(uint32_t) +
                                               2 * sizeof(plumb_real) + 2 * sizeof(size_t),
                    "stats are compared byte by byte: without padding");
     trace t = { .hash = plumb_world_hash(w), .stats = plumb_world_stats(w) };
