@@ -1,4 +1,4 @@
-// fat.c - tight and fat boxes of pieces, and whether the pair list still covers all that may touch.
+// fat.c - fat boxes of pieces, and whether the pair list still covers all that may touch.
 //
 // Reads: poses, piece geometry, velocities. Writes: fat boxes, which pieces left theirs. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
@@ -13,54 +13,6 @@
 
 // When more than one in so many moving pieces has left its box, the pair list is made from nothing.
 #define MANY 2
-
-static real absolute(real v)
-{
-    return v < 0 ? -v : v;
-}
-
-static pl_box box_around(real x, real y, real ex, real ey)
-{
-    return (pl_box){ x - ex, y - ey, x + ex, y + ey };
-}
-
-static pl_box polygon_box(const plumb_world *world, uint32_t piece, const pl_pose *pose)
-{
-    const pl_vertex *v = world->vertices.items + world->pieces.vertices[piece];
-    pl_box box = { PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
-    for (int i = 0; i < world->pieces.vertex_count[piece]; ++i) {
-        real x = pose->c * v[i].x - pose->s * v[i].y;
-        real y = pose->s * v[i].x + pose->c * v[i].y;
-        box.min_x = x < box.min_x ? x : box.min_x;
-        box.min_y = y < box.min_y ? y : box.min_y;
-        box.max_x = x > box.max_x ? x : box.max_x;
-        box.max_y = y > box.max_y ? y : box.max_y;
-    }
-    real r = world->pieces.core[piece].radius;
-    return (pl_box){ pose->x + box.min_x - r, pose->y + box.min_y - r, pose->x + box.max_x + r,
-                     pose->y + box.max_y + r };
-}
-
-pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece)
-{
-    const pl_core *core = &world->pieces.core[piece];
-    const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
-    real x = pose->x + pose->c * core->x - pose->s * core->y;
-    real y = pose->y + pose->s * core->x + pose->c * core->y;
-    real c = absolute(pose->c * core->c - pose->s * core->s);
-    real s = absolute(pose->s * core->c + pose->c * core->s);
-    real r = core->radius;
-    switch (world->pieces.kind[piece]) {
-    case PL_PIECE_CIRCLE:
-        return box_around(x, y, r, r);
-    case PL_PIECE_CAPSULE:
-        return box_around(x, y, c * core->hx + r, s * core->hx + r);
-    case PL_PIECE_BOX:
-        return box_around(x, y, c * core->hx + s * core->hy + r, s * core->hx + c * core->hy + r);
-    default:
-        return polygon_box(world, piece, pose);
-    }
-}
 
 pl_box pl_piece_filed_box(const plumb_world *world, uint32_t piece)
 {
@@ -193,7 +145,7 @@ static uint32_t refresh_some(void *context, uint32_t first, uint32_t count)
         pl_box needed = needed_box(world, piece, &tight, r->dt);
         if (!pl_box_contains(&fat[piece], &needed)) {
             const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
-            real way = (absolute(pose->vx) + absolute(pose->vy)) * r->dt;
+            real way = (plumb_abs(pose->vx) + plumb_abs(pose->vy)) * r->dt;
             fat[piece] = fattened(needed, &tight, way);
             marks[piece] = marks[piece] == 0 ? PL_JUST_LEFT : marks[piece];
             ++left;

@@ -186,8 +186,8 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
         }
     }
     // Where two that stand lie flush, each would push it into the other, and it into the seam.
-    const bool is_in_seam = held > 1 && is_within(g, tile, to) && !is_within(g, tile, from);
-    return is_in_seam ? from : to;
+    const bool enters_wall = held > 1 && is_within(g, tile, to) && !is_within(g, tile, from);
+    return enters_wall ? from : to;
 }
 
 //---- all of them ---------------------------------------------------------------------------------
