@@ -23,12 +23,6 @@ static pl_softbody *item_at(const plumb_world *world, uint32_t i)
     return &pl_softbody_items(&world->softbodies)[i];
 }
 
-static bool overlap(const pl_softbody *item, const pl_box *box, real by)
-{
-    return box->max_x + by >= item->low.x && box->min_x - by <= item->high.x &&
-           box->max_y + by >= item->low.y && box->min_y - by <= item->high.y;
-}
-
 // [m] that the fastest node may move in the step.
 static real way_of(const plumb_world *world, const pl_softbody *item, pl_softbody_place at, real dt)
 {
@@ -97,7 +91,7 @@ static void link_touched(plumb_world *world, uint32_t i, pl_softbody_place at, r
         for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE;
              p = world->pieces.next_in_body[p]) {
             const pl_box box = pl_piece_tight_box(world, p);
-            if (overlap(item, &box, by)) {
+            if (pl_softbody_overlaps(item, &box, by)) {
                 const double gap = pl_soft_gap(world, item, at, row, p, (double)dt);
                 least = gap < least ? gap : least;
             }
@@ -157,7 +151,7 @@ static bool is_reached(const plumb_world *world, const pl_softbody *item, pl_sof
                        uint32_t piece, real dt)
 {
     const pl_pieces *p = &world->pieces;
-    if (!overlap(item, &p->fat[piece], 0)) {
+    if (!pl_softbody_overlaps(item, &p->fat[piece], 0)) {
         return false;
     }
     if ((p->flags[piece] & PL_PIECE_SENSOR) != 0) {
@@ -214,7 +208,8 @@ static bool is_followed(const plumb_world *world, const pl_softbody *item, pl_so
         const uint32_t row = world->registry.slots[slot].row;
         for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
             const pl_box box = pl_piece_tight_box(world, p);
-            if (overlap(item, &box, (real)pl_soft_way_of_row(world, row, (double)dt)) &&
+            if (pl_softbody_overlaps(item, &box,
+                                     (real)pl_soft_way_of_row(world, row, (double)dt)) &&
                 pl_soft_gap(world, item, at, row, p, (double)dt) < INFINITY) {
                 return true;
             }

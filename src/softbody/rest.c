@@ -8,6 +8,7 @@
 #include "softbody/softbody.h"
 #include "world/push.h"
 #include "world/rows.h"
+#include "world/softbody_list.h"
 
 #include <math.h>
 
@@ -109,9 +110,8 @@ bool pl_soft_is_blown(const plumb_world *world, const pl_softbody *item)
         const bool moves = row < world->dynamic_count + world->kinematic_count &&
                            (b->vx[row] != 0 || b->vy[row] != 0 || b->w[row] != 0);
         const plumb_filter own = { p->category[i], p->mask[i], p->group[i], p->mask[i] == 0 };
-        blown |= (moves || pl_fluid_is_restless(world, i)) && box.max_x >= item->low.x &&
-                 box.min_x <= item->high.x && box.max_y >= item->low.y &&
-                 box.min_y <= item->high.y && plumb_filters_meet(own, item->filter);
+        blown |= (moves || pl_fluid_is_restless(world, i)) && pl_softbody_overlaps(item, &box, 0) &&
+                 plumb_filters_meet(own, item->filter);
     }
     return blown;
 }

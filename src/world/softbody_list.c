@@ -142,17 +142,12 @@ void pl_softbody_rise(plumb_world *world, uint32_t row)
     }
 }
 
-static bool overlaps(const pl_softbody *item, const pl_box *box)
-{
-    return box->max_x >= item->low.x && box->min_x <= item->high.x && box->max_y >= item->low.y &&
-           box->min_y <= item->high.y;
-}
-
 // By boxes, where the piece was filed and where it is now.
 static bool may_touch(const plumb_world *world, const pl_softbody *item, uint32_t piece)
 {
     const pl_box tight = pl_piece_tight_box(world, piece);
-    return overlaps(item, &world->pieces.fat[piece]) || overlaps(item, &tight);
+    return pl_softbody_overlaps(item, &world->pieces.fat[piece], 0) ||
+           pl_softbody_overlaps(item, &tight, 0);
 }
 
 static void disturb_held(plumb_world *world, uint32_t row)

@@ -32,4 +32,11 @@ void pl_softbodies_stir_by(plumb_world *world, uint32_t row);
 void pl_softbodies_stir_near(plumb_world *world, uint32_t piece);
 void pl_softbodies_stir_all(plumb_world *world);
 
+// Whether its box comes within `by` [m] of another.
+static inline bool pl_softbody_overlaps(const pl_softbody *item, const pl_box *box, plumb_real by)
+{
+    return box->max_x + by >= item->low.x && box->min_x - by <= item->high.x &&
+           box->max_y + by >= item->low.y && box->min_y - by <= item->high.y;
+}
+
 #endif
