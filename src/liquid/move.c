@@ -169,7 +169,7 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
     const double room = SKIN + MOST_WAY;
     const double way = larger(fabs(to.x - from.x), fabs(to.y - from.y));
     place unused;
-    int held = 0;
+    bool held = false;
     if (way > MOST_WAY) {
         return pl_liquid_slide_all(g, from, to, &unused);
     }
@@ -181,12 +181,12 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
                  : way > LEAST_WIDTH / 2 ? slide(s, from, to, &unused)
                                          : to;
             const place out = out_of(s, to, &unused);
-            held += stands(g, s) && (out.x != to.x || out.y != to.y);
+            held |= stands(g, s) && (out.x != to.x || out.y != to.y);
             to = out;
         }
     }
     // Where two that stand lie flush, each would push it into the other, and it into the seam.
-    const bool enters_wall = held > 1 && is_within(g, tile, to) && !is_within(g, tile, from);
+    const bool enters_wall = held && is_within(g, tile, to) && !is_within(g, tile, from);
     return enters_wall ? from : to;
 }
 
