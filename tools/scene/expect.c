@@ -147,13 +147,23 @@ void sc_open_expect(lua_State *L)
     lua_register(L, "exact", lua_exact);
 }
 
-static void describe(sc_expect *e)
+// When somebody asks: an expectation that is always looked at is measured at every step.
+const char *sc_expect_describe(sc_expect *e)
 {
     const char *relation = e->status == SCENE_EXPECT_PASSED ? "ok, limit" : "breaks limit";
+    if (e->status == SCENE_EXPECT_PENDING) {
+        return "";
+    }
+    if (e->status == SCENE_EXPECT_NOT_REACHED) {
+        snprintf(e->description, sizeof e->description, "not reached: the run ended at %.6g s",
+                 e->time);
+        return e->description;
+    }
     bool plain = strcmp(e->unit, "1") == 0; // a number without a unit
     const char *gap = plain ? "" : " ", *unit = plain ? "" : e->unit;
     snprintf(e->description, sizeof e->description, "%s %.6g%s%s (%s %.6g%s%s) at %.6g s",
              e->quantity, e->measured, gap, unit, relation, e->limit, gap, unit, e->time);
+    return e->description;
 }
 
 static void evaluate(scene *s, sc_expect *e)
@@ -162,7 +172,6 @@ static void evaluate(scene *s, sc_expect *e)
     sc_measure(s, e);
     e = &s->expects.items[index]; // a test function may have moved the list
     e->status = e->ratio <= 1 ? SCENE_EXPECT_PASSED : SCENE_EXPECT_FAILED;
-    describe(e);
 }
 
 // ---------------------------------------------------------------------------------------- timing
@@ -247,8 +256,7 @@ void sc_expect_finish(scene *s)
             evaluate(s, e);
         } else if (e->status == SCENE_EXPECT_PENDING) {
             e->status = SCENE_EXPECT_NOT_REACHED;
-            snprintf(e->description, sizeof e->description, "not reached: the run ended at %.6g s",
-                     scene_time(s));
+            e->time = scene_time(s);
         }
     }
 }

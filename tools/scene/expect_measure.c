@@ -23,12 +23,12 @@ static void widen(sc_expect_def *d, double range[2])
 
 /// One measured criterion.
 typedef struct sample {
-    char quantity[2 * SC_NAME_SIZE];
+    const char *body, *what; // "" and what, or body.what
     const char *unit;
     double measured, limit, ratio;
 } sample;
 
-// Keeps the worst of the line so far, and the verdict.
+// Keeps the worst of the line so far, and the verdict. Only what is kept is named: that takes longer than to measure it.
 static void keep(scene *s, sc_expect *e, const sample *m)
 {
     double ratio = isnan(m->measured) || isnan(m->ratio) ? DBL_MAX : m->ratio;
@@ -40,46 +40,77 @@ static void keep(scene *s, sc_expect *e, const sample *m)
     e->limit = m->limit;
     e->unit = m->unit;
     e->time = scene_time(s);
-    memcpy(e->quantity, m->quantity, sizeof e->quantity);
-}
-
-static void name_quantity(sample *m, const char *body, const char *what)
-{
-    snprintf(m->quantity, sizeof m->quantity, "%s%s%s", body, body[0] != 0 ? "." : "", what);
+    snprintf(e->quantity, sizeof e->quantity, "%s%s%s", m->body, m->body[0] != 0 ? "." : "",
+             m->what);
 }
 
 static void at_most(scene *s, sc_expect *e, const char *body, const char *what, const char *unit,
                     double v, double limit)
 {
-    sample m = { .unit = unit, .measured = v, .limit = limit };
+    sample m = { body, what, unit, v, limit, 0 };
     m.ratio = limit > 0 ? v / limit : v <= limit ? 1 : DBL_MAX / 2;
-    name_quantity(&m, body, what);
     keep(s, e, &m);
 }
 
 static void at_least(scene *s, sc_expect *e, const char *body, const char *what, const char *unit,
                      double v, double limit)
 {
-    sample m = { .unit = unit, .measured = v, .limit = limit };
+    sample m = { body, what, unit, v, limit, 0 };
     m.ratio = v >= limit ? (v > 0 ? limit / v : 1) : DBL_MAX / 2;
-    name_quantity(&m, body, what);
     keep(s, e, &m);
 }
 
 static void within(scene *s, sc_expect *e, const char *body, const char *what, const char *unit,
                    double v, const double range[2])
 {
-    sample m = { .unit = unit, .measured = v };
+    sample m = { body, what, unit, v, 0, 0 };
     double middle = isinf(range[0]) || isinf(range[1]) ? v : (range[0] + range[1]) / 2;
     double half = (range[1] - range[0]) / 2;
     m.limit = fabs(v - range[0]) < fabs(v - range[1]) ? range[0] : range[1];
     bool inside = v >= range[0] && v <= range[1];
     m.ratio = inside ? (half > 0 ? fmin(fabs(v - middle) / half, 1) : 1) : 1 + fabs(v - m.limit);
-    name_quantity(&m, body, what);
     keep(s, e, &m);
 }
 
-static void measure_body(scene *s, sc_expect *e, const sc_body *b)
+// What a body must have within a range.
+enum { IN_X, IN_Y, IN_VX, IN_VY, IN_ANGLE, IN_SPIN, IN_SPEED, IN_TEMPERATURE, IN_COUNT };
+#define RANGE(member, unit)                                                                        \
+    {                                                                                              \
+        offsetof(sc_expect_def, member), #member, unit                                             \
+    }
+static const struct {
+    size_t offset; // of the range
+    const char *what, *unit;
+} body_ranges[IN_COUNT] = {
+    [IN_X] = RANGE(x, "m"),           [IN_Y] = RANGE(y, "m"),
+    [IN_VX] = RANGE(vx, "m/s"),       [IN_VY] = RANGE(vy, "m/s"),
+    [IN_ANGLE] = RANGE(angle, "rad"), [IN_SPIN] = RANGE(spin, "rad/s"),
+    [IN_SPEED] = RANGE(speed, "m/s"), [IN_TEMPERATURE] = RANGE(temperature, "K"),
+};
+
+// What an expectation asks of bodies, found once for all of them.
+typedef struct asked {
+    bool position, max_speed, min_speed, max_spin, count, ranges[IN_COUNT];
+    bool any;
+} asked;
+
+static asked asked_of(const sc_expect_def *d)
+{
+    // Without a body only limits on every moving one are meant.
+    asked a = { .position = d->body[0] != 0 && HAS(d, position),
+                .max_speed = HAS(d, max_speed),
+                .min_speed = HAS(d, min_speed),
+                .max_spin = HAS(d, max_spin),
+                .count = HAS(d, count) };
+    a.any = a.position || a.max_speed || a.min_speed || a.max_spin;
+    for (int i = 0; i < IN_COUNT; i++) {
+        a.ranges[i] = sc_given(&sc_list_expect, d, body_ranges[i].offset);
+        a.any |= a.ranges[i];
+    }
+    return a;
+}
+
+static void measure_body(scene *s, sc_expect *e, const asked *a, const sc_body *b)
 {
     const sc_expect_def *d = &e->def;
     const char *name = b->def.name;
@@ -88,41 +119,33 @@ static void measure_body(scene *s, sc_expect *e, const sc_body *b)
     double px = (double)p.x, py = (double)p.y, vx = (double)v.x, vy = (double)v.y;
     double speed = sqrt(vx * vx + vy * vy);
     double spin = (double)plumb_body_angular_velocity(s->world, b->entity);
-    bool own = d->body[0] != 0; // else only limits on every moving body are meant
-    if (own && HAS(d, position)) {
+    if (a->position) {
         double dx = px - d->position[0], dy = py - d->position[1];
         at_most(s, e, name, "distance from position", "m", sqrt(dx * dx + dy * dy), d->tolerance);
     }
-    const struct {
-        bool given;
-        const char *what, *unit;
-        double value;
-        const double *range;
-    } ranges[] = {
-        { HAS(d, x), "x", "m", px, d->x },
-        { HAS(d, y), "y", "m", py, d->y },
-        { HAS(d, vx), "vx", "m/s", vx, d->vx },
-        { HAS(d, vy), "vy", "m/s", vy, d->vy },
-        { HAS(d, angle), "angle", "rad", (double)plumb_body_angle(s->world, b->entity), d->angle },
-        { HAS(d, spin), "spin", "rad/s", spin, d->spin },
-        { HAS(d, speed), "speed", "m/s", speed, d->speed },
-        { HAS(d, temperature), "temperature", "K",
-          (double)plumb_body_temperature(s->world, b->entity), d->temperature },
-    };
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
-        if (ranges[i].given) {
-            double range[2] = { ranges[i].range[0], ranges[i].range[1] };
+    const double values[IN_COUNT] = { px,
+                                      py,
+                                      vx,
+                                      vy,
+                                      (double)plumb_body_angle(s->world, b->entity),
+                                      spin,
+                                      speed,
+                                      (double)plumb_body_temperature(s->world, b->entity) };
+    for (int i = 0; i < IN_COUNT; i++) {
+        if (a->ranges[i]) {
+            double range[2];
+            memcpy(range, (const char *)d + body_ranges[i].offset, sizeof range);
             widen(&e->def, range);
-            within(s, e, name, ranges[i].what, ranges[i].unit, ranges[i].value, range);
+            within(s, e, name, body_ranges[i].what, body_ranges[i].unit, values[i], range);
         }
     }
-    if (HAS(d, max_speed)) {
+    if (a->max_speed) {
         at_most(s, e, name, "speed", "m/s", speed, d->max_speed);
     }
-    if (HAS(d, min_speed)) {
+    if (a->min_speed) {
         at_least(s, e, name, "speed", "m/s", speed, d->min_speed);
     }
-    if (HAS(d, max_spin)) {
+    if (a->max_spin) {
         at_most(s, e, name, "spin", "rad/s", fabs(spin), d->max_spin);
     }
 }
@@ -130,21 +153,21 @@ static void measure_body(scene *s, sc_expect *e, const sc_body *b)
 static void measure_bodies(scene *s, sc_expect *e)
 {
     const sc_expect_def *d = &e->def;
+    const asked a = asked_of(d);
     int count = 0;
-    for (int i = 0; i < s->bodies.count; i++) {
+    for (int i = 0; i < s->bodies.count && (a.any || d->body[0] != 0); i++) {
         const sc_body *b = s->bodies.items[i];
         if (d->body[0] == 0 ? b->def.type == 0 : sc_name_matches(d->body, b->def.name)) {
-            measure_body(s, e, b);
+            measure_body(s, e, &a, b);
             count++;
         }
     }
-    if (HAS(d, count)) {
+    if (a.count) {
         double range[2] = { d->count[0], d->count[1] };
         widen(&e->def, range);
         within(s, e, d->body, "count", "1", d->body[0] == 0 ? s->bodies.count : count, range);
     } else if (d->body[0] != 0 && count == 0) {
-        sample m = { .unit = "1", .measured = 0, .limit = 1, .ratio = DBL_MAX };
-        name_quantity(&m, d->body, "bodies left");
+        sample m = { d->body, "bodies left", "1", 0, 1, DBL_MAX };
         keep(s, e, &m);
     }
 }
@@ -201,7 +224,7 @@ static void measure_test(scene *s, sc_expect *e)
     e = &s->expects.items[index];
     check_verdict(s, e);
     bool good = lua_toboolean(L, -3) != 0;
-    sample m = { .quantity = "test", .unit = "1", .ratio = good ? 1 : DBL_MAX / 2 };
+    sample m = { .body = "", .what = "test", .unit = "1", .ratio = good ? 1 : DBL_MAX / 2 };
     m.measured = lua_type(L, -2) == LUA_TNUMBER ? lua_tonumber(L, -2) : good;
     m.limit = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : 1;
     if (isnan(m.measured)) {
@@ -263,8 +286,7 @@ static void measure_joints(scene *s, sc_expect *e)
         }
     }
     if (each && count == 0) {
-        sample m = { .unit = "1", .measured = 0, .limit = 1, .ratio = DBL_MAX };
-        name_quantity(&m, d->joint, "joints left");
+        sample m = { d->joint, "joints left", "1", 0, 1, DBL_MAX };
         keep(s, e, &m);
     } else if (HAS(d, max_joint_error) && count == 0) {
         at_most(s, e, d->joint, "joint_error", "m", 0, d->max_joint_error);
@@ -280,15 +302,16 @@ static void measure_joints(scene *s, sc_expect *e)
 
 static void measure_sensors(scene *s, sc_expect *e)
 {
-    for (int i = 0; i < s->bodies.count; i++) {
+    const bool visits = HAS(&e->def, visits), inside = HAS(&e->def, inside);
+    for (int i = 0; i < s->bodies.count && (visits || inside); i++) {
         const sc_body *b = s->bodies.items[i];
         if (!sc_name_matches(e->def.body, b->def.name)) {
             continue;
         }
-        if (HAS(&e->def, visits)) {
+        if (visits) {
             in_range(s, e, b->def.name, "visits", "1", b->visits, e->def.visits);
         }
-        if (HAS(&e->def, inside)) {
+        if (inside) {
             int count = sc_body_overlaps(s, b->entity);
             lua_pop(s->L, 1);
             in_range(s, e, b->def.name, "inside", "1", count, e->def.inside);

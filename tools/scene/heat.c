@@ -1,17 +1,11 @@
 // heat.c - bodies that melt, burn and grow: their records follow the shapes that the world gives them, those that are gone leave the
 // scene and are told (on_gone); heat() answers with what the world's heat came to. Cost: O(bodies that may change) a step.
+#include <stddef.h>
 #include <string.h>
 
 #include "internal.h"
 
-#define GIVEN(b, member) SC_GIVEN(&sc_list_body, &(b)->def, sc_body_def, member)
-
 // ------------------------------------------------------------------------------------ other shapes
-
-bool sc_body_changes(const sc_body *b)
-{
-    return GIVEN(b, growth) || GIVEN(b, melting_point) || GIVEN(b, ignition);
-}
 
 // The first shape has another measure than the record.
 static bool is_stale(const scene *s, const sc_body *b)
@@ -50,6 +44,29 @@ static void follow(scene *s, sc_body *b)
     }
 }
 
+// Those that melt, burn or grow, and so may be others without a call.
+static void follow_all(scene *s)
+{
+    static const size_t members[] = { offsetof(sc_body_def, growth),
+                                      offsetof(sc_body_def, melting_point),
+                                      offsetof(sc_body_def, ignition) };
+    enum { count = sizeof members / sizeof *members };
+    int rows[count];
+    for (int k = 0; k < count; k++) {
+        rows[k] = sc_row_of(&sc_list_body, members[k]);
+    }
+    for (int i = 0; i < s->bodies.count; i++) {
+        sc_body *b = s->bodies.items[i];
+        bool changes = false;
+        for (int k = 0; k < count; k++) {
+            changes |= sc_row_given(&sc_list_body, &b->def, rows[k]);
+        }
+        if (changes) {
+            follow(s, b);
+        }
+    }
+}
+
 // ---------------------------------------------------------------------------------------- the end
 
 // Joints that went with it.
@@ -85,11 +102,7 @@ void sc_gone_take(scene *s)
         sc_excluded_forget(s, b->entity);
         sc_body_release(s, b);
     }
-    for (int i = 0; i < s->bodies.count; i++) {
-        if (sc_body_changes(s->bodies.items[i])) {
-            follow(s, s->bodies.items[i]);
-        }
-    }
+    follow_all(s);
 }
 
 static void tell(scene *s, const sc_gone *e, const sc_handler *h)

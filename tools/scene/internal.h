@@ -186,7 +186,9 @@ void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void
 /// Whether rows[row] was given; marks it as given or not.
 bool sc_row_given(const sc_list *list, const void *def, int row);
 void sc_row_mark(const sc_list *list, void *def, int row, bool given);
-/// Whether a field was given: offset of the struct's member.
+/// The row of the struct's member at an offset; -1: of none.
+int sc_row_of(const sc_list *list, size_t offset);
+/// Whether a field was given: offset of the struct's member. Looks for its row; who asks of many looks once.
 bool sc_given(const sc_list *list, const void *def, size_t offset);
 #define SC_GIVEN(list, def, type, member) sc_given((list), (def), offsetof(type, member))
 /// Marks a field as given.
@@ -580,8 +582,6 @@ void sc_shatters_take(scene *s);
 void sc_shatters_tell(scene *s);
 /// The record of a body whose shapes are others now (fracture.c).
 void sc_body_refit(scene *s, sc_body *body);
-/// Whether it melts, burns or grows, and so may be another without a call.
-bool sc_body_changes(const sc_body *body);
 /// Those that changed in the step, and those that are gone: records follow; handlers hear of it.
 void sc_gone_take(scene *s);
 void sc_gone_tell(scene *s);
@@ -604,6 +604,8 @@ void sc_call(scene *s, int args, int results);
 
 /// Measured criteria: each is held against its limit, the line keeps the worst (expect_measure.c).
 void sc_measure(scene *s, sc_expect *e);
+/// What came of it, as a line.
+const char *sc_expect_describe(sc_expect *e);
 void sc_expect_begin(scene *s); ///< remembers energy and momentum at the start
 void sc_expect_step(scene *s);
 void sc_expect_finish(scene *s);

@@ -463,7 +463,7 @@ int scene_expect_count(const scene *s)
 
 scene_expect_result scene_expect_get(const scene *s, int i)
 {
-    const sc_expect *e = &s->expects.items[i];
+    sc_expect *e = &s->expects.items[i];
     return (scene_expect_result){ .name = e->def.name,
                                   .status = e->status,
                                   .passed = e->status == SCENE_EXPECT_PASSED,
@@ -473,7 +473,7 @@ scene_expect_result scene_expect_get(const scene *s, int i)
                                   .limit = e->limit,
                                   .time = e->time,
                                   .line = e->line,
-                                  .description = e->description };
+                                  .description = sc_expect_describe(e) };
 }
 
 int scene_expect_failures(const scene *s)

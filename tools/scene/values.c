@@ -53,14 +53,20 @@ void sc_row_mark(const sc_list *list, void *def, int row, bool given)
     memcpy(def, present, bytes);
 }
 
-bool sc_given(const sc_list *list, const void *def, size_t offset)
+int sc_row_of(const sc_list *list, size_t offset)
 {
     for (int i = 0; i < list->count; i++) {
         if (list->rows[i].offset == offset) {
-            return sc_row_given(list, def, i);
+            return i;
         }
     }
-    return false;
+    return -1;
+}
+
+bool sc_given(const sc_list *list, const void *def, size_t offset)
+{
+    const int row = sc_row_of(list, offset);
+    return row >= 0 && sc_row_given(list, def, row);
 }
 
 void sc_mark(const sc_list *list, void *def, size_t offset, bool given)
