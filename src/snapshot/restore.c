@@ -198,6 +198,7 @@ static void forget_last_step(plumb_world *world)
     world->sleep.events_told = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->fracture.break_count = world->fracture.piece_count = 0;
+    world->fracture.events_told = false;
     world->heats.gone_count = 0;
     world->quarantine.event_count = 0;
     pl_watchdog_forget(&world->watchdog);
