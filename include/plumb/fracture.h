@@ -68,6 +68,28 @@ PLUMB_API plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plu
 /// O(pieces and joints). Errors: E_HANDLE, E_RANGE (factor; a length or mass of its shapes), E_NOT_FINITE, E_MEMORY, E_LOCKED.
 PLUMB_API plumb_result plumb_body_scale(plumb_world *world, plumb_body body, plumb_real factor);
 
+//---- the same within a step -----------------------------------------------------------------------
+
+/// For systems and hooks, which may not call the above: carried out with the other commands (see plumb/ecs.h), in the order in
+/// which they were given, when the next step begins. The body may be one that a command is to make. Values are checked when the
+/// command is given. What only time can tell drops it with a warning: a body that is gone, or has no shape with an
+/// area, a part without mass, a range that a mass or length would leave. Points and lines are in the world, and meet the body where
+/// it is by then. What a cut or shattered body has become is told by plumb_world_body_break_events; one that the line misses stays
+/// as it is, without an event. What a merger loses nobody tells.
+///
+///     plumb_command_body_cut(call->world, plank, point, plumb_v2(0, 1));
+///
+/// Errors: those of the direct calls in E_NULL, E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY; E_UNSUPPORTED (a library without it). O(1).
+PLUMB_API plumb_result plumb_command_body_cut(plumb_world *world, plumb_body body, plumb_vec2 point,
+                                              plumb_vec2 along);
+/// Null `desc`: {0}.
+PLUMB_API plumb_result plumb_command_body_shatter(plumb_world *world, plumb_body body,
+                                                  const plumb_shatter_desc *desc);
+PLUMB_API plumb_result plumb_command_body_merge(plumb_world *world, plumb_body body,
+                                                plumb_body other);
+PLUMB_API plumb_result plumb_command_body_scale(plumb_world *world, plumb_body body,
+                                                plumb_real factor);
+
 //---- bodies that break by themselves -------------------------------------------------------------
 
 /// Bounds above which a dynamic body breaks by itself: the mean force [N] of one contact over a step, its impulse [N s] in a step; 0, the
@@ -92,20 +114,21 @@ PLUMB_API plumb_result plumb_body_set_break_cells(plumb_world *world, plumb_body
                                                   plumb_real break_cells);
 PLUMB_API plumb_real plumb_body_break_cells(const plumb_world *world, plumb_body body);
 
-/// A body that broke by itself. `normal` points from it to the other.
+/// A body that broke by itself, or that a command has cut or shattered: then without other, impulse and energy.
 typedef struct plumb_body_break {
     plumb_body body;    ///< the largest part, which has its handle
-    plumb_body other;   ///< what struck it or lay on it; stale if it is gone by now
-    plumb_vec2 point;   ///< [m] where
-    plumb_vec2 normal;  ///< unit
+    plumb_body other;   ///< what struck it or lay on it; stale if it is gone by now; null of a command
+    plumb_vec2 point;   ///< [m] where; that of the command
+    plumb_vec2 normal;  ///< unit, from the body to the other; of a cut, to the left of its line; 0 of a command that shatters
     plumb_real impulse; ///< [N s] that broke it, of the whole step
     plumb_real energy;  ///< [J] taken out of the relative motion of the two, by what it bore
     int first_part;     ///< of plumb_world_body_break_parts
     int part_count;     ///< new bodies
 } plumb_body_break;
 
-/// Bodies that broke as the last step began, in the order of their contacts in the step before; valid until the next step. Saved
-/// worlds have none. Null and 0 where there are none.
+/// Bodies that broke as the last step began: by commands, in their order, then by themselves, in the order of their contacts in
+/// the step before. What plumb_commands_apply has carried out since is told at once, and after the next step with what
+/// breaks then. Valid until the next step or plumb_commands_apply. Saved worlds have none. Null and 0 where there are none.
 PLUMB_API const plumb_body_break *plumb_world_body_break_events(const plumb_world *world, int *count);
 /// The new bodies that all of them broke into.
 PLUMB_API const plumb_body *plumb_world_body_break_parts(const plumb_world *world, int *count);

@@ -6,6 +6,7 @@
 
 #include "accuracy/dial.h"
 #include "air/air.h"
+#include "api/command.h"
 #include "api/fracture.h"
 #include "api/heat_run.h"
 #include "character/character.h"
@@ -197,6 +198,15 @@ REFUSES_PARTS(plumb_body_shatter, plumb_world *world, plumb_body body, const plu
 REFUSES(plumb_body_merge, "a merged body", "fracture", plumb_world *world, plumb_body body, plumb_body other,
         double *lost)
 REFUSES(plumb_body_scale, "a scaled body", "fracture", plumb_world *world, plumb_body body, plumb_real factor)
+REFUSES(plumb_command_body_cut, "a body in parts", "fracture", plumb_world *world, plumb_body body, plumb_vec2 point,
+        plumb_vec2 along)
+REFUSES(plumb_command_body_shatter, "a body in parts", "fracture", plumb_world *world, plumb_body body,
+        const plumb_shatter_desc *desc)
+REFUSES(plumb_command_body_merge, "a merged body", "fracture", plumb_world *world, plumb_body body, plumb_body other)
+REFUSES(plumb_command_body_scale, "a scaled body", "fracture", plumb_world *world, plumb_body body, plumb_real factor)
+GIVES(plumb_result, pl_command_fracture_run, PLUMB_OK, plumb_world *world, const pl_command *r, const char *payload)
+GIVES(size_t, pl_command_fracture_payload, 0, const pl_command *r)
+GIVES(bool, pl_command_fracture_is_sound, false, const pl_command *r, const char *payload)
 GIVES(const plumb_body_break *, plumb_world_body_break_events, (count != NULL ? (*count = 0) : 0, NULL),
       const plumb_world *world, int *count)
 GIVES(const plumb_body *, plumb_world_body_break_parts, (count != NULL ? (*count = 0) : 0, NULL),

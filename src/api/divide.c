@@ -82,7 +82,7 @@ static plumb_result open_division(division *d)
     return PLUMB_OK;
 }
 
-static bool reserve(const division *d)
+static bool reserve(const division *d, bool tells)
 {
     plumb_world *world = d->world;
     pl_memory *memory = &world->memory;
@@ -116,8 +116,9 @@ static bool reserve(const division *d)
            pl_pool_reserve(memory, &world->vertices, corners) &&
            pl_buffer_reserve(memory, &world->made, pieces * sizeof(pl_made_piece)) &&
            pl_buffer_reserve(memory, &f->shapes, shapes * sizeof(uint32_t)) &&
-           pl_buffer_reserve(memory, &f->pieces, // where they are told of: breaking.c
-                             ((size_t)f->piece_count + f->child_count) * sizeof(plumb_body));
+           (!tells || // breaking.c
+            pl_buffer_reserve(memory, &f->pieces,
+                              ((size_t)f->piece_count + f->child_count) * sizeof(plumb_body)));
 }
 
 //---- rows ----------------------------------------------------------------------------------------
@@ -462,11 +463,11 @@ static void move(const division *d)
     }
 }
 
-plumb_result pl_divide(plumb_world *world, const char *function, plumb_body body)
+plumb_result pl_divide(plumb_world *world, const char *function, plumb_body body, bool tells)
 {
     division d = { .world = world, .fn = function, .body = body };
     PL_TRY(open_division(&d));
-    if (!reserve(&d)) {
+    if (!reserve(&d, tells)) {
         return pl_fail_memory(world, function);
     }
     make_rows(&d);

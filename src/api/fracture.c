@@ -24,6 +24,15 @@
 
 //---- what both ask -------------------------------------------------------------------------------
 
+bool pl_is_divisible(const plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    while (p != PL_NONE && !pl_fragments_have(world, p)) {
+        p = world->pieces.next_in_body[p];
+    }
+    return p != PL_NONE;
+}
+
 static plumb_result check(const plumb_world *world, const char *fn, plumb_body body, int capacity,
                           const plumb_body *parts)
 {
@@ -34,13 +43,10 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_body b
         return pl_fail(world, capacity < 0 ? PLUMB_E_RANGE : PLUMB_E_NULL, fn,
                        "capacity is %d; it must be 0 or more, and 0 without parts", capacity);
     }
-    uint32_t p = world->bodies.first_piece[row];
-    while (p != PL_NONE && !pl_fragments_have(world, p)) {
-        p = world->pieces.next_in_body[p];
-    }
-    return p != PL_NONE ? PLUMB_OK
-                        : pl_fail(world, PLUMB_E_STATE, fn,
-                                  "body has no shape with an area; it must have one");
+    return pl_is_divisible(world, row)
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_STATE, fn,
+                         "body has no shape with an area; it must have one");
 }
 
 static int tell(const plumb_world *world, plumb_body body, plumb_body *parts, int capacity)
@@ -60,41 +66,61 @@ static int tell(const plumb_world *world, plumb_body body, plumb_body *parts, in
 
 //---- lines ---------------------------------------------------------------------------------------
 
-int plumb_body_cut(plumb_world *world, plumb_body body, plumb_vec2 point, plumb_vec2 along,
-                   plumb_body *parts, int capacity)
+plumb_result pl_cut_check(const plumb_world *world, const char *function, plumb_vec2 point,
+                          plumb_vec2 along)
 {
-    if (check(world, __func__, body, capacity, parts) != PLUMB_OK ||
-        pl_check_within(world, __func__, "point", point, PLACE_MOST) != PLUMB_OK ||
-        pl_check_finite_vec(world, __func__, "along", along) != PLUMB_OK) {
-        return -1;
-    }
-    // In the body's frame, in double.
+    PL_TRY(pl_check_within(world, function, "point", point, PLACE_MOST));
+    PL_TRY(pl_check_finite_vec(world, function, "along", along));
+    return along.x != 0 || along.y != 0
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, function, "along is (0, 0); it must not be 0");
+}
+
+// The two sides of a line, in the frame of the body of `row`, in double.
+static pl_cells sides_of(const plumb_world *world, uint32_t row, plumb_vec2 point, plumb_vec2 along)
+{
     const pl_bodies *b = &world->bodies;
-    const uint32_t row = pl_body_row(world, body);
     const double c = (double)b->c[row], s = (double)b->s[row];
     const double dx = (double)point.x - (double)b->x[row], dy = (double)point.y - (double)b->y[row];
     const double px = c * dx + s * dy, py = c * dy - s * dx;
     const double scale = pl_larger(fabs((double)along.x), fabs((double)along.y));
     const double ax = (double)along.x / scale, ay = (double)along.y / scale;
     const double length = sqrt(ax * ax + ay * ay);
-    if (!(scale > 0)) {
-        pl_fail(world, PLUMB_E_RANGE, __func__, "along is (0, 0); it must not be 0");
-        return -1;
-    }
     const double nx = -(c * ay - s * ax) / length, ny = (c * ax + s * ay) / length;
-    const pl_cells cells = { .count = 2, .is_line = true, .line = { nx, ny, nx * px + ny * py } };
+    return (pl_cells){ .count = 2, .is_line = true, .line = { nx, ny, nx * px + ny * py } };
+}
+
+plumb_result pl_cut(plumb_world *world, const char *function, plumb_body body, plumb_vec2 point,
+                    plumb_vec2 along, bool tells, int *count)
+{
+    *count = 0;
+    const uint32_t row = pl_body_row(world, body);
+    const pl_cells cells = sides_of(world, row, point, along);
     if (!pl_fragments_make(world, row, &cells)) {
-        pl_fail_memory(world, __func__);
-        return -1;
+        return pl_fail_memory(world, function);
     }
     bool cuts = false;
     for (uint32_t i = 0; i < world->fracture.fragment_count; ++i) {
         cuts |= pl_fragments(world)[i].cell != pl_fragments(world)[0].cell;
     }
     if (!cuts || world->fracture.child_count < 2) {
-        return 0;
+        return PLUMB_OK;
     }
-    return pl_divide(world, __func__, body) == PLUMB_OK ? tell(world, body, parts, capacity) : -1;
+    PL_TRY(pl_divide(world, function, body, tells));
+    *count = (int)world->fracture.child_count - 1;
+    return PLUMB_OK;
+}
+
+int plumb_body_cut(plumb_world *world, plumb_body body, plumb_vec2 point, plumb_vec2 along,
+                   plumb_body *parts, int capacity)
+{
+    int count;
+    if (check(world, __func__, body, capacity, parts) != PLUMB_OK ||
+        pl_cut_check(world, __func__, point, along) != PLUMB_OK ||
+        pl_cut(world, __func__, body, point, along, false, &count) != PLUMB_OK) {
+        return -1;
+    }
+    return count == 0 ? 0 : tell(world, body, parts, capacity);
 }
 
 //---- cells ---------------------------------------------------------------------------------------
@@ -298,7 +324,7 @@ static bool settle_cells(plumb_world *world, uint32_t row, const plumb_shatter_d
 }
 
 plumb_result pl_shatter(plumb_world *world, const char *function, plumb_body body,
-                        const plumb_shatter_desc *desc, int *count)
+                        const plumb_shatter_desc *desc, bool tells, int *count)
 {
     *count = 0;
     pl_cells cells = { 0 };
@@ -314,13 +340,13 @@ plumb_result pl_shatter(plumb_world *world, const char *function, plumb_body bod
     if (cells.count < 2 || world->fracture.child_count < 2) {
         return PLUMB_OK;
     }
-    PL_TRY(pl_divide(world, function, body));
+    PL_TRY(pl_divide(world, function, body, tells));
     *count = (int)world->fracture.child_count - 1;
     return PLUMB_OK;
 }
 
-static plumb_result check_shatter(const plumb_world *world, const char *fn,
-                                  const plumb_shatter_desc *desc)
+plumb_result pl_shatter_check(const plumb_world *world, const char *fn,
+                              const plumb_shatter_desc *desc)
 {
     PL_TRY(pl_check_within(world, fn, "point", desc->point, PLACE_MOST));
     PL_TRY(pl_check_range(world, fn, "even", desc->even, 0, 1));
@@ -338,8 +364,8 @@ int plumb_body_shatter(plumb_world *world, plumb_body body, const plumb_shatter_
     desc = desc != NULL ? desc : &none;
     int count;
     if (check(world, __func__, body, capacity, parts) != PLUMB_OK ||
-        check_shatter(world, __func__, desc) != PLUMB_OK ||
-        pl_shatter(world, __func__, body, desc, &count) != PLUMB_OK) {
+        pl_shatter_check(world, __func__, desc) != PLUMB_OK ||
+        pl_shatter(world, __func__, body, desc, false, &count) != PLUMB_OK) {
         return -1;
     }
     return count == 0 ? 0 : tell(world, body, parts, capacity);

@@ -37,21 +37,51 @@ static inline pl_child *pl_children(const plumb_world *world)
 
 //---- divide.c ------------------------------------------------------------------------------------
 
-// Makes bodies of the children of pl_fragments_make, two or more; the body itself becomes the heaviest. E_MEMORY, E_RANGE
-// (a mass): nothing has changed.
-plumb_result pl_divide(plumb_world *world, const char *function, plumb_body body);
+// Makes bodies of the children of pl_fragments_make, two or more; the body itself becomes the heaviest. `tells`: with room for
+// the event; otherwise events stay where they are. E_MEMORY, E_RANGE (a mass): nothing has changed.
+plumb_result pl_divide(plumb_world *world, const char *function, plumb_body body, bool tells);
 
 //---- fracture.c ----------------------------------------------------------------------------------
 
-// As plumb_body_shatter of a body that was checked. Returns the result; *count new bodies are children of the fracture.
+// Whether some shape of a body has an area.
+bool pl_is_divisible(const plumb_world *world, uint32_t row);
+plumb_result pl_cut_check(const plumb_world *world, const char *function, plumb_vec2 point,
+                          plumb_vec2 along);
+plumb_result pl_shatter_check(const plumb_world *world, const char *function,
+                              const plumb_shatter_desc *desc);
+// As plumb_body_cut and plumb_body_shatter of what was checked; *count new bodies are children of the fracture. `tells`: an
+// event is to follow.
+plumb_result pl_cut(plumb_world *world, const char *function, plumb_body body, plumb_vec2 point,
+                    plumb_vec2 along, bool tells, int *count);
 plumb_result pl_shatter(plumb_world *world, const char *function, plumb_body body,
-                        const plumb_shatter_desc *desc, int *count);
+                        const plumb_shatter_desc *desc, bool tells, int *count);
+
+//---- merge.c -------------------------------------------------------------------------------------
+
+// As the public functions, told as another.
+plumb_result pl_merge(plumb_world *world, const char *function, plumb_body body, plumb_body other,
+                      double *lost);
+plumb_result pl_scale_check(const plumb_world *world, const char *function, plumb_real factor);
+plumb_result pl_scale(plumb_world *world, const char *function, plumb_body body, plumb_real factor);
 
 //---- breaking.c ----------------------------------------------------------------------------------
 
-// Bodies that broke in the step before shatter, with their events; those of the step before are forgotten. `waits`: that
-// alone, as in a step of dt 0, in which nothing changes. E_MEMORY: those
-// that are left wait for the next step.
+// Bodies that broke in the step before shatter, with their events. `waits`: not yet, as in a step of dt 0, in which
+// nothing changes. E_MEMORY: those that are left wait for the next step.
 plumb_result pl_breaks_run(plumb_world *world, const char *function, bool waits);
+// Room for one more event, before a body is divided.
+bool pl_break_reserve(plumb_world *world);
+// Appends the event of a body that has become children of the fracture; these are its parts.
+void pl_break_tell(plumb_world *world, plumb_body_break event);
+
+// What a step told is forgotten when the next one begins, or commands are carried out for it.
+static inline void pl_breaks_begin(plumb_world *world)
+{
+    pl_fracture *f = &world->fracture;
+    if (f->events_told) {
+        f->break_count = f->piece_count = 0;
+        f->events_told = false;
+    }
+}
 
 #endif

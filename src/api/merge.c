@@ -5,7 +5,7 @@
 // a blow without restitution.
 //
 // Reads: arguments, checked first; pieces. Writes: rows, pieces, joints. Cost: O(pieces and joints of both).
-#include "plumb/fracture.h"
+#include "api/fracture.h"
 
 #include "joints/joint.h"
 #include "plumb/math.h"
@@ -312,26 +312,27 @@ static plumb_result check_merge(const plumb_world *world, const char *fn, plumb_
     return PLUMB_OK;
 }
 
-plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plumb_body other, double *lost)
+plumb_result pl_merge(plumb_world *world, const char *function, plumb_body body, plumb_body other,
+                      double *lost)
 {
-    PL_TRY(check_merge(world, __func__, body, other));
+    PL_TRY(check_merge(world, function, body, other));
     const uint32_t row = pl_body_row(world, body), gone = pl_body_row(world, other);
     pl_bodies *b = &world->bodies;
     const state first = state_of(world, row), second = state_of(world, gone);
     const bool given = has_own_mass(world, row) || has_own_mass(world, gone);
     const bool is_dynamic = b->type[row] == PLUMB_DYNAMIC;
     if (is_dynamic && second.mass > 0 && !(first.mass + second.mass <= (double)PL_MASS_MOST)) {
-        return pl_fail(world, PLUMB_E_RANGE, __func__,
+        return pl_fail(world, PLUMB_E_RANGE, function,
                        "other has mass %g; together they must have at most %g", second.mass,
                        (double)PL_MASS_MOST);
     }
     if (!reserve_shapes(world, gone)) {
-        return pl_fail_memory(world, __func__);
+        return pl_fail_memory(world, function);
     }
     const mapping m = frame_in(world, row, gone);
     pl_heat_merge(world, body, first.mass, other, second.mass);
     hand_on_joints(world, &m, other, body);
-    move_shapes(world, __func__, &m, pl_body_row(world, other), body);
+    move_shapes(world, function, &m, pl_body_row(world, other), body);
     pl_destroy_entity(world, other.entity);
     const uint32_t now = pl_body_row(world, body);
     double energy = energy_against(&second, &first);
@@ -346,11 +347,16 @@ plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plumb_body ot
         pl_mass_revise(world, now);
     }
     pl_sleep_stir(world, now);
-    pl_told(world, body.entity, __func__);
+    pl_told(world, body.entity, function);
     if (lost != NULL) {
         *lost = energy;
     }
     return PLUMB_OK;
+}
+
+plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plumb_body other, double *lost)
+{
+    return pl_merge(world, __func__, body, other, lost);
 }
 
 //---- growing and shrinking -----------------------------------------------------------------------
@@ -388,23 +394,28 @@ static plumb_result check_scale(const plumb_world *world, const char *fn, uint32
                           (double)PLUMB_LENGTH_MIN, (double)PLUMB_LENGTH_MAX);
 }
 
-plumb_result plumb_body_scale(plumb_world *world, plumb_body body, plumb_real factor)
+plumb_result pl_scale_check(const plumb_world *world, const char *function, plumb_real factor)
+{
+    return pl_check_range(world, function, "factor", factor, (plumb_real)1e-3, (plumb_real)1e3);
+}
+
+plumb_result pl_scale(plumb_world *world, const char *function, plumb_body body, plumb_real factor)
 {
     uint32_t row;
-    PL_TRY(pl_check_body(world, __func__, body, &row));
-    PL_TRY(pl_check_range(world, __func__, "factor", factor, (plumb_real)1e-3, (plumb_real)1e3));
-    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_body(world, function, body, &row));
+    PL_TRY(pl_scale_check(world, function, factor));
+    PL_TRY(pl_check_unlocked(world, function));
     pl_bodies *b = &world->bodies;
     const double f = (double)factor, lx = (double)b->local_x[row], ly = (double)b->local_y[row];
     const mapping m = { .c = 1, .s = 0, .x = lx - f * lx, .y = ly - f * ly, .scale = f };
-    PL_TRY(check_scale(world, __func__, row, &m));
+    PL_TRY(check_scale(world, function, row, &m));
     if (!reserve_shapes(world, row)) {
-        return pl_fail_memory(world, __func__);
+        return pl_fail_memory(world, function);
     }
     const state before = state_of(world, row);
     b->set_mass[row] = (real)((double)b->set_mass[row] * f * f);
     b->set_inertia[row] = (real)((double)b->set_inertia[row] * f * f * f * f);
-    move_shapes(world, __func__, &m, row, body);
+    move_shapes(world, function, &m, row, body);
     pl_mass_revise(world, row);
     set_motion(world, row, before.vx, before.vy, before.w);
     for (uint32_t slot = b->first_joint[row]; slot != PL_NONE;) {
@@ -416,6 +427,11 @@ plumb_result plumb_body_scale(plumb_world *world, plumb_body body, plumb_real fa
         slot = pl_joint_next(j, body);
     }
     pl_sleep_stir(world, row);
-    pl_told(world, body.entity, __func__);
+    pl_told(world, body.entity, function);
     return PLUMB_OK;
+}
+
+plumb_result plumb_body_scale(plumb_world *world, plumb_body body, plumb_real factor)
+{
+    return pl_scale(world, __func__, body, factor);
 }

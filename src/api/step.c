@@ -12,7 +12,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(pl_check_range(world, __func__, "dt", dt, 0, 1));
     PL_TRY(pl_commands_run(world));
-    if ((world->fracture.pending_count | world->fracture.break_count) != 0) {
+    if (world->fracture.pending_count != 0) {
         PL_TRY(pl_breaks_run(world, __func__, dt == 0));
     }
     if ((world->heats.count | world->heats.gone_count) != 0) {
@@ -29,6 +29,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (observer != NULL) {
         observer->steps = false;
     }
+    world->fracture.events_told |= result == PLUMB_OK;
     if (result == PLUMB_E_MEMORY) {
         return pl_fail_memory(world, __func__);
     }

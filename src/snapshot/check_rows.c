@@ -412,7 +412,7 @@ bool pl_check_materials(pl_suspect *s)
     for (uint32_t m = 0; m < w->materials.table.count; ++m) {
         const pl_slot *slot = pl_registry_find(&w->registry, w->materials.entity[m].entity);
         const bool named = slot != NULL && slot->kind == PLUMB_KIND_MATERIAL && slot->row == m;
-        if ((m > 0) != named) {
+        if ((m > 0) != named || (m == 0 && !plumb_is_null(w->materials.entity[m]))) {
             return false;
         }
     }

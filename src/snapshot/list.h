@@ -185,7 +185,8 @@
     LEFT(fracture.fragments) LEFT(fracture.parts) LEFT(fracture.children) LEFT(fracture.shapes)    \
     LEFT(fracture.fragment_count) LEFT(fracture.part_count) LEFT(fracture.child_count)             \
     LEFT(fracture.shape_count) LEFT(fracture.breaks) LEFT(fracture.pieces)                         \
-    LEFT(fracture.break_count) LEFT(fracture.piece_count) LEFT(fracture.before)                    \
+    LEFT(fracture.break_count) LEFT(fracture.piece_count) LEFT(fracture.events_told)               \
+    LEFT(fracture.before)                                                                          \
     ARRAY(pl_pending_break, fracture.pending, fracture.pending_count, sizeof(pl_pending_break), 0)
 
 #define PL_STATE_HEATS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \

@@ -197,6 +197,9 @@ static void forget_last_step(plumb_world *world)
     world->sleep.sleep_event_count = world->sleep.wake_event_count = 0;
     world->sleep.events_told = false;
     world->joints.broken_count = world->joints.strained_count = 0;
+    world->fracture.break_count = world->fracture.piece_count = 0;
+    world->fracture.events_told = false;
+    world->heats.gone_count = 0;
     world->quarantine.event_count = 0;
     pl_watchdog_forget(&world->watchdog);
     world->continuous.count = world->continuous.stopped_count = 0;

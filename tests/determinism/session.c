@@ -48,6 +48,13 @@ static uint64_t steps_of(const plumb_world *w)
     return plumb_world_stats(w).step_count;
 }
 
+static plumb_body body_by(plumb_world *w, uint64_t salt)
+{
+    plumb_body_span b = plumb_world_bodies(w);
+    plumb_body none = PLUMB_NULL_INIT;
+    return b.dynamic_count == 0 ? none : b.body[salt % (uint64_t)b.dynamic_count];
+}
+
 // Commands of every kind.
 static void give_command(const session *s, plumb_body who, uint32_t salt)
 {
@@ -64,7 +71,8 @@ static void give_command(const session *s, plumb_body who, uint32_t salt)
     value.other = who;
     value.hot = true;
     plumb_body made = PLUMB_NULL_INIT;
-    switch (salt % 7) {
+    const plumb_vec2 at = plumb_body_center(w, who);
+    switch (salt % 11) {
     case 0:
         made = plumb_command_body_create(
             w, &(plumb_body_desc){ .position = { R(salt % 9) - 4, 6 }, .user_data = SOMETHING });
@@ -86,17 +94,23 @@ static void give_command(const session *s, plumb_body who, uint32_t salt)
     case 5:
         plumb_command_component_remove(w, who.entity, s->mark);
         break;
+    case 6:
+        plumb_command_body_cut(w, who, at, (plumb_vec2){ R(salt % 7) - 3, 1 });
+        break;
+    case 7:
+        plumb_command_body_shatter(w, who,
+                                   &(plumb_shatter_desc){ .point = at, .cells = 4, .seed = salt });
+        break;
+    case 8:
+        plumb_command_body_merge(w, who, body_by(w, salt / 11));
+        break;
+    case 9:
+        plumb_command_body_scale(w, who, salt % 2 ? R(1.25) : R(0.8));
+        break;
     default:
         plumb_command_destroy(w, who.entity);
         break;
     }
-}
-
-static plumb_body body_by(plumb_world *w, uint64_t salt)
-{
-    plumb_body_span b = plumb_world_bodies(w);
-    plumb_body none = PLUMB_NULL_INIT;
-    return b.dynamic_count == 0 ? none : b.body[salt % (uint64_t)b.dynamic_count];
 }
 
 // A hook is called at any time: also within a step, by a joint that breaks.

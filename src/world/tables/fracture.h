@@ -50,6 +50,7 @@ typedef struct pl_fracture {
     pl_buffer breaks;   // plumb_body_break since the last step
     pl_buffer pieces;   // plumb_body: what they broke into
     uint32_t break_count, piece_count;
+    bool events_told;   // the step that made them is over
     pl_buffer pending;  // pl_pending_break, in the order of contacts
     uint32_t pending_count;
     pl_buffer before;   // pl_row_velocity of each body when the step began; scratch

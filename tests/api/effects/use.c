@@ -102,6 +102,10 @@ static void refusals(void)
     refused(w, "fracture", plumb_body_shatter(w, body, NULL, NULL, 0) >= 0);
     refused(w, "fracture", plumb_body_merge(w, body, lift, NULL) == PLUMB_OK);
     refused(w, "fracture", plumb_body_scale(w, body, 2) == PLUMB_OK);
+    refused(w, "fracture", plumb_command_body_cut(w, body, (plumb_vec2){ 0, 0 }, (plumb_vec2){ 1, 0 }) == PLUMB_OK);
+    refused(w, "fracture", plumb_command_body_shatter(w, body, NULL) == PLUMB_OK);
+    refused(w, "fracture", plumb_command_body_merge(w, body, lift) == PLUMB_OK);
+    refused(w, "fracture", plumb_command_body_scale(w, body, 2) == PLUMB_OK);
     refused(w, "heat", MADE(plumb_body_create, (plumb_body_desc){ .temperature = 300 }));
     refused(w, "heat", plumb_body_set_growth(w, body, 1) == PLUMB_OK);
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
