@@ -23,9 +23,9 @@ typedef struct tree {
 
 static plumb_joint_kind any_kind(uint32_t *seed)
 {
-    static const plumb_joint_kind kinds[] = { PLUMB_WELD, PLUMB_WELD, PLUMB_REVOLUTE,
-                                              PLUMB_PRISMATIC };
-    return kinds[(int)sim_uniform(seed, 0, 4)];
+    static const plumb_joint_kind kinds[] = { PLUMB_WELD,     PLUMB_WELD,  PLUMB_REVOLUTE,
+                                              PLUMB_REVOLUTE, PLUMB_MOTOR, PLUMB_PRISMATIC };
+    return kinds[(int)sim_uniform(seed, 0, 6)];
 }
 
 static plumb_body add_body(tree *t, uint32_t *seed, double x, double y)
