@@ -151,7 +151,8 @@ typedef enum plumb_batch_joint_field {
     PLUMB_JOINT_FIELD_TORQUE,      ///< [N m] plumb_joint_torque
     PLUMB_JOINT_FIELD_MOTOR_SPEED, ///< [rad/s] or [m/s] of the motor; writing it switches the motor on
     PLUMB_JOINT_FIELD_MAX_MOTOR,   ///< [N m] or [N]; likewise
-    PLUMB_JOINT_FIELD_REST         ///< [rad] or [m] at which the spring is at rest: where a servo is to go
+    PLUMB_JOINT_FIELD_REST         ///< [rad] or [m] at which the spring is at rest: where a servo is to go; of a distance
+                                   ///< joint its length, and 0 leaves that as it is
 } plumb_batch_joint_field;
 
 /// Joints and fields of every world: number j, f of world w is at (w * joint_count + j) * field_count + f.

@@ -102,7 +102,8 @@ PLUMB_API plumb_result plumb_joint_set_restitution(plumb_world *world, plumb_joi
 /// above.
 PLUMB_API plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool enabled,
                                              plumb_real speed, plumb_real max_motor);
-/// Sets the spring; hertz 0 as in the descriptor. Stiffness and damper are 0 from then on. Errors as above.
+/// Sets the spring; hertz 0 as in the descriptor. Stiffness and damper are 0 from then on. Of a distance joint `rest` is the
+/// length >= 0 of rod or spring, and 0 leaves that as it is; of a mouse joint it must be 0. Errors as above.
 PLUMB_API plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb_real hertz,
                                               plumb_real damping, plumb_real rest);
 /// Sets the spring by stiffness [N/m] or [N m/rad] and damper [N s/m] or [N m s/rad]; hertz and damping are 0 from then

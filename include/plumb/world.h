@@ -41,7 +41,7 @@ typedef struct plumb_world_desc {
     int iterations;                 ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
     bool direct_joints;             ///< solve all joints of an island together, exactly, by a direct method. Costs some
                                     ///< 2 us a joint and substep, more where joints form nets. Soft step alone; mice,
-                                    ///< motors, friction joints and what has a bound are swept as ever. Default: so are
+                                    ///< friction joints and motor joints that give way are swept as ever. Default: so are
                                     ///< all joints but those of bodies that hang together by a light one between heavy
                                     ///< ones, a hub, a row of welds: they are solved together unasked, up to nets of 150
                                     ///< joints. What contacts push apart and joints hold together may be thrown

@@ -26,9 +26,10 @@ static bool differ(const plumb_joint_desc *a, const plumb_joint_desc *b)
            a->enable_motor != b->enable_motor || a->motor_speed != b->motor_speed ||
            a->max_motor != b->max_motor || a->hertz != b->hertz || a->damping != b->damping ||
            a->stiffness != b->stiffness || a->damper != b->damper || a->rest != b->rest ||
-           a->restitution != b->restitution || a->break_force != b->break_force ||
-           a->break_torque != b->break_torque || a->break_impulse != b->break_impulse ||
-           a->event_force != b->event_force || a->event_torque != b->event_torque;
+           a->length != b->length || a->restitution != b->restitution ||
+           a->break_force != b->break_force || a->break_torque != b->break_torque ||
+           a->break_impulse != b->break_impulse || a->event_force != b->event_force ||
+           a->event_torque != b->event_torque;
 }
 
 // Another descriptor, with which the joint may be solved in another way. What is set to what it was wakes nobody.
@@ -97,6 +98,24 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
     return revise(world, __func__, j, wanted);
 }
 
+// Where the spring is at rest: of a rod or spring between two points that is its length, of which 0 means as it is.
+static plumb_result take_rest(const plumb_world *world, const char *fn, real rest,
+                              plumb_joint_desc *wanted)
+{
+    const pl_joint_class *kind = pl_joint_classes[wanted->kind];
+    PL_TRY(pl_check_finite(world, fn, "rest", rest));
+    if ((kind->has & PL_JOINT_REST) != 0) {
+        wanted->rest = rest;
+    } else if ((kind->has & PL_JOINT_LENGTH) != 0) {
+        PL_TRY(pl_check_range(world, fn, "rest", rest, 0, PLUMB_REAL_MAX));
+        wanted->length = rest > 0 ? rest : wanted->length;
+    } else if (rest != 0) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "rest is %g; it must be 0 for a %s joint",
+                       (double)rest, kind->name);
+    }
+    return PLUMB_OK;
+}
+
 static plumb_result revise_spring(plumb_world *world, const char *fn, pl_joint *joint,
                                   plumb_joint_desc wanted)
 {
@@ -113,12 +132,11 @@ plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb
     PL_TRY(find(world, __func__, joint, PL_JOINT_SPRING, "spring", &j));
     PL_TRY(pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX));
     PL_TRY(pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX));
-    PL_TRY(pl_check_finite(world, __func__, "rest", rest));
     plumb_joint_desc wanted = j->desc;
+    PL_TRY(take_rest(world, __func__, rest, &wanted));
     wanted.hertz = hertz;
     wanted.damping = damping;
     wanted.stiffness = wanted.damper = 0;
-    wanted.rest = rest;
     return revise_spring(world, __func__, j, wanted);
 }
 
@@ -129,12 +147,11 @@ plumb_result plumb_joint_set_stiffness(plumb_world *world, plumb_joint joint, pl
     PL_TRY(find(world, __func__, joint, PL_JOINT_SPRING, "spring", &j));
     PL_TRY(pl_check_range(world, __func__, "stiffness", stiffness, 0, PLUMB_REAL_MAX));
     PL_TRY(pl_check_range(world, __func__, "damper", damper, 0, PLUMB_REAL_MAX));
-    PL_TRY(pl_check_finite(world, __func__, "rest", rest));
     plumb_joint_desc wanted = j->desc;
+    PL_TRY(take_rest(world, __func__, rest, &wanted));
     wanted.hertz = wanted.damping = 0;
     wanted.stiffness = stiffness;
     wanted.damper = damper;
-    wanted.rest = rest;
     return revise_spring(world, __func__, j, wanted);
 }
 

@@ -97,7 +97,7 @@ static plumb_real read_field(const plumb_world *world, plumb_joint joint,
     case PLUMB_JOINT_FIELD_MAX_MOTOR:
         return now->max_motor;
     default: // PLUMB_JOINT_FIELD_REST
-        return now->rest;
+        return now->kind == PLUMB_DISTANCE ? now->length : now->rest;
     }
 }
 

@@ -305,11 +305,13 @@ static bool let_go(const joint_system *s)
         pl_direct_part *p = &s->parts[c];
         const pl_joint *j = p->lone.joint;
         for (int i = j->rows.block; i < j->rows.count; ++i) {
-            if (!p->law[i].in_force || !p->at_bound[i]) {
-                continue;
+            const double impulse = (double)j->impulse[i];
+            const double above = impulse - p->law[i].low, below = p->law[i].high - impulse;
+            if (!p->law[i].in_force || !p->at_bound[i] || above + below <= 0) {
+                continue; // one that may give nothing never comes off
             }
-            const bool low = (double)j->impulse[i] <= p->law[i].low;
-            const double lack = lack_of(p, i) - p->law[i].give * (double)j->impulse[i];
+            const bool low = above < below; // the nearer one: rounding leaves it a bit beside it
+            const double lack = lack_of(p, i) - p->law[i].give * impulse;
             if (low ? lack > SLACK : lack < -SLACK) {
                 p->at_bound[i] = false;
                 any = true;
@@ -461,12 +463,20 @@ static void fill_sides(const joint_system *s, bool arcs)
     }
 }
 
+static double within_bounds(const pl_row_law *law, double total)
+{
+    return total < law->low ? law->low : total > law->high ? law->high : total;
+}
+
+// Passes may end, and arcs be added, with who is at a bound not found: no bound is passed for that.
 static void apply(const joint_system *s)
 {
     for (uint32_t c = s->first; c < s->end; ++c) {
         pl_direct_part *p = &s->parts[c];
         for (int k = 0; k < p->count; ++k) {
-            push(p, p->row[k], (double)p->lone.joint->impulse[p->row[k]] + p->x[k]);
+            const int i = p->row[k];
+            const double total = (double)p->lone.joint->impulse[i] + p->x[k];
+            push(p, i, i < p->lone.joint->rows.block ? total : within_bounds(&p->law[i], total));
         }
     }
 }

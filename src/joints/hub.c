@@ -73,6 +73,8 @@ static what_holds held_by(const plumb_joint_desc *d)
     case PLUMB_REVOLUTE:
     case PLUMB_WHEEL:
         return PLACE;
+    case PLUMB_MOTOR: // rigid and without a bound it is a weld
+        return sprung || d->max_force > 0 ? NOTHING : d->max_torque > 0 ? PLACE : PLACE_AND_TURN;
     case PLUMB_DISTANCE:
         return sprung ? NOTHING : PLACE;
     default:

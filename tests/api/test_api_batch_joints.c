@@ -104,6 +104,38 @@ static void a_servo_goes_where_it_is_sent(void **state)
     plumb_batch_destroy(batch);
 }
 
+// A spring between two points: what is written is its length.
+static void a_muscle_has_the_length_that_it_is_given(void **state)
+{
+    (void)state;
+    plumb_batch *batch = make();
+    plumb_joint muscle = PLUMB_NULL_INIT;
+    for (int w = 0; w < WORLDS; ++w) {
+        plumb_world *world = plumb_batch_world(batch, (uint32_t)w);
+        muscle = plumb_joint_create(
+            world, &(plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                        .body_b = plumb_body_create(world, &(plumb_body_desc){ 0 }),
+                                        .anchor = { 0, 9 },
+                                        .hertz = 3 });
+    }
+    static const plumb_batch_joint_field rest[] = { PLUMB_JOINT_FIELD_REST };
+    const plumb_batch_joint_view how = { &muscle, 1, rest, 1 };
+    plumb_real lengths[WORLDS];
+    assert_int_equal(plumb_batch_observe_joints(batch, &how, lengths, WORLDS), PLUMB_OK);
+    for (int w = 0; w < WORLDS; ++w) {
+        assert_near(lengths[w], 9, ROUNDED(1e-5));
+        lengths[w] = R(1 + w);
+    }
+    assert_int_equal(plumb_batch_drive_joints(batch, &how, lengths, WORLDS), PLUMB_OK);
+    for (int w = 0; w < WORLDS; ++w) {
+        plumb_joint_desc now;
+        assert_int_equal(plumb_joint_settings(plumb_batch_world(batch, (uint32_t)w), muscle, &now),
+                         PLUMB_OK);
+        assert_near(now.length, 1 + w, 0);
+    }
+    plumb_batch_destroy(batch);
+}
+
 #define REFUSED_BY(code_, text, call)                                                              \
     do {                                                                                           \
         assert_int_equal(call, PLUMB_##code_);                                                     \
@@ -182,6 +214,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(observe_gathers_what_getters_tell),
         cmocka_unit_test(a_servo_goes_where_it_is_sent),
+        cmocka_unit_test(a_muscle_has_the_length_that_it_is_given),
         cmocka_unit_test(views_are_checked),
         cmocka_unit_test(worlds_refuse_one_by_one),
     };

@@ -68,10 +68,14 @@ static void getters_tell_what_was_set(void **state)
     assert_int_equal(plumb_joint_set_limit(w, j, true, 1, 7), PLUMB_OK);
     assert_int_equal(plumb_joint_set_restitution(w, j, R(0.25)), PLUMB_OK);
     assert_int_equal(plumb_joint_set_spring(w, j, 2, R(0.5), 0), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_near(d.length, 5, ROUNDED(1e-6));
+    assert_int_equal(plumb_joint_set_spring(w, j, 2, R(0.5), 3), PLUMB_OK);
     assert_int_equal(plumb_joint_set_break(w, j, 100, 200), PLUMB_OK);
     assert_int_equal(plumb_joint_set_user_data(w, j, &tag), PLUMB_OK);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.enable_limit && d.lower == 1 && d.upper == 7 && d.hertz == 2);
+    assert_true(d.length == 3 && d.rest == 0);
     assert_true(d.restitution == R(0.25) && !d.tell_impulse);
     assert_int_equal(plumb_joint_set_tell_impulse(w, j, true), PLUMB_OK);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
@@ -364,6 +368,10 @@ static void setters_refuse(void **state)
             plumb_joint_set_spring(w, rod, 1, -1, 0));
     REFUSED(E_NOT_FINITE, "plumb_joint_set_spring: rest is nan; it must be finite",
             plumb_joint_set_spring(w, rod, 1, 0, (plumb_real)NAN));
+    REFUSED(E_RANGE, "plumb_joint_set_spring: rest is -1; it must be at least 0",
+            plumb_joint_set_spring(w, rod, 1, 0, -1));
+    REFUSED(E_RANGE, "plumb_joint_set_stiffness: rest is 2; it must be 0 for a mouse joint",
+            plumb_joint_set_stiffness(w, mouse, 1, 0, 2));
     REFUSED(E_HANDLE, "plumb_joint_set_tell_impulse: joint is null; it must be a live joint",
             plumb_joint_set_tell_impulse(w, NONE, true));
     REFUSED(E_STATE,

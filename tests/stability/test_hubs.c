@@ -12,6 +12,8 @@
 
 #define HZ60 (1 / 60.0)
 
+enum { HINGE_MOTOR = 5, WHEEL_MOTOR = 4 }; // their rows
+
 // A tree of bodies that turns as one at 1 rad/s, in space: kinds of joints, masses and places at random.
 typedef struct tree {
     plumb_world *world;
@@ -21,9 +23,9 @@ typedef struct tree {
 
 static plumb_joint_kind any_kind(uint32_t *seed)
 {
-    static const plumb_joint_kind kinds[] = { PLUMB_WELD, PLUMB_WELD, PLUMB_REVOLUTE,
-                                              PLUMB_PRISMATIC };
-    return kinds[(int)sim_uniform(seed, 0, 4)];
+    static const plumb_joint_kind kinds[] = { PLUMB_WELD,     PLUMB_WELD,  PLUMB_REVOLUTE,
+                                              PLUMB_REVOLUTE, PLUMB_MOTOR, PLUMB_PRISMATIC };
+    return kinds[(int)sim_uniform(seed, 0, 6)];
 }
 
 static plumb_body add_body(tree *t, uint32_t *seed, double x, double y)
@@ -117,11 +119,69 @@ static void trees_make_no_energy(void **state)
     try_trees(false);
 }
 
+// A star of arms that motors drive, one after the other way round: who is at its bound is found whichever bound it is,
+// and one that may give nothing gives nothing. Returns by how much a motor exceeds its bound at the most, as a share.
+static double excess_of_motors(uint32_t seed)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = sim_uniform(&seed, 0, 2) < 1 });
+    const plumb_body hub = sim_mass(w, 0, 0, 0.3, 0.01);
+    const int arms = 4 + (int)sim_uniform(&seed, 0, 4);
+    const bool idle = sim_uniform(&seed, 0, 4) < 1; // motors that may give nothing
+    plumb_joint joint[8];
+    double most[8], worst = 0;
+    for (int i = 0; i < arms; ++i) {
+        const double angle = 2 * SIM_PI * i / arms, far = sim_uniform(&seed, 0.3, 1);
+        const double x = cos(angle), y = sin(angle), kg = sim_uniform(&seed, 0.1, 2);
+        const plumb_body arm =
+            sim_mass(w, (0.3 + far) * x, (0.3 + far) * y, kg, kg * far * far / 3);
+        most[i] = idle ? 0 : sim_uniform(&seed, 0.01, 5);
+        joint[i] =
+            sim_joint(w, (plumb_joint_desc){ .kind = i % 3 == 2 ? PLUMB_WHEEL : PLUMB_REVOLUTE,
+                                             .body_a = hub,
+                                             .body_b = arm,
+                                             .anchor = sim_vec(0.3 * x, 0.3 * y),
+                                             .axis = i % 3 == 2 ? sim_vec(x, y) : sim_vec(0, 0),
+                                             .enable_motor = true,
+                                             .motor_speed = (plumb_real)sim_uniform(&seed, -8, 8),
+                                             .max_motor = (plumb_real)most[i] });
+    }
+    for (int step = 0; step < 30; ++step) {
+        sim_step(w, HZ60);
+        for (int i = 0; i < arms; ++i) {
+            plumb_joint_memory memory;
+            plumb_joint_get_memory(w, joint[i], &memory);
+            const double torque =
+                fabs((double)memory.impulses[i % 3 == 2 ? WHEEL_MOTOR : HINGE_MOTOR]) /
+                (double)memory.substep;
+            worst = fmax(worst, (torque - most[i]) / (most[i] + 1e-6));
+        }
+    }
+    plumb_world_destroy(w);
+    return worst;
+}
+
+static void motors_give_no_more_than_they_may(void **state)
+{
+    (void)state;
+    const unsigned first = asked("FIRST", 1), count = asked("TREES", 300);
+    int over = 0;
+    double worst = 0;
+    for (unsigned i = first; i < first + count; ++i) {
+        const double excess = excess_of_motors(104729 * i);
+        over += !(excess < 1e-5);
+        worst = fmax(worst, excess);
+    }
+    print_message("%d of %u stars have motors that give too much, by %.3g of it\n", over, count,
+                  worst);
+    assert_int_equal(over, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stars_make_no_energy),
         cmocka_unit_test(trees_make_no_energy),
+        cmocka_unit_test(motors_give_no_more_than_they_may),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
