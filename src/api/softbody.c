@@ -253,9 +253,10 @@ plumb_result plumb_softbody_set_gas(plumb_world *world, plumb_softbody softbody,
 // Which pin of a soft body holds a node; PL_NONE: none does.
 static uint32_t find_pin(const pl_softbodies *s, uint32_t row, int node)
 {
-    const plumb_softbody_pin *pins = pl_softbody_pins(s) + pl_softbody_place_of(s, row).pin;
+    const plumb_softbody_pin *pins = pl_softbody_pins(s);
+    const uint32_t first = pl_softbody_place_of(s, row).pin;
     for (uint32_t i = 0; i < pl_softbody_items(s)[row].pins; ++i) {
-        if (pins[i].node == (uint32_t)node) {
+        if (pins[first + i].node == (uint32_t)node) {
             return i;
         }
     }
@@ -355,10 +356,10 @@ bool plumb_softbody_no_sleep(const plumb_world *world, plumb_softbody softbody)
 static void sum_nodes(const pl_softbodies *s, const pl_softbody *item, pl_softbody_place at,
                       plumb_energy *e)
 {
-    const plumb_softbody_pin *pins = pl_softbody_pins(s) + at.pin;
+    const plumb_softbody_pin *pins = pl_softbody_pins(s);
     uint32_t pin = 0;
     for (uint32_t i = 0; i < item->nodes; ++i) {
-        if (pin < item->pins && pins[pin].node == i) {
+        if (pin < item->pins && pins[at.pin + pin].node == i) {
             ++pin;
             continue;
         }

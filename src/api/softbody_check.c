@@ -172,8 +172,8 @@ static bool is_item_sound(const pl_softbodies *s, const pl_softbody *item, pl_so
     for (uint32_t i = 0; i < item->ring && sound; ++i) {
         sound = pl_softbody_rings(s)[at.ring + i] < item->nodes;
     }
-    const plumb_softbody_pin *pins = pl_softbody_pins(s) + at.pin;
     for (uint32_t i = 0; i < item->pins && sound; ++i) {
+        const plumb_softbody_pin *pins = pl_softbody_pins(s) + at.pin;
         const plumb_vec2 p = pins[i].point;
         sound = pins[i].node < item->nodes && p.x >= -FAR && p.x <= FAR && p.y >= -FAR &&
                 p.y <= FAR && (i == 0 || pins[i].node > pins[i - 1].node);

@@ -280,6 +280,9 @@ static void solve_island(pl_exact_system *s, bool warm)
 
 static void solve_all(const pl_substep *substep, pl_joint_sweep sweep)
 {
+    if (substep->world->exact.island_count == 0) {
+        return; // nothing was planned, so there are no arrays
+    }
     pl_exact_system s = system_of(substep, sweep);
     pl_exact_island *islands = s.exact->islands.data;
     for (uint32_t i = 0; i < s.exact->island_count; ++i) {

@@ -168,11 +168,11 @@ static uint64_t handle_key(const search *s, const pl_exact_item *item)
 
 static void order_items(search *s)
 {
-    pl_exact_item *items = s->exact->items.data, *sorted = items + s->exact->item_count;
     const uint32_t count = s->exact->item_count;
     if (count == 0) {
         return;
     }
+    pl_exact_item *items = s->exact->items.data, *sorted = items + count;
     for (uint32_t i = 0; i < count; ++i) {
         s->keyed[i] = (pl_keyed){ .key = handle_key(s, &items[i]), .value = i };
     }
@@ -262,7 +262,9 @@ static pl_exact_island *island_of(const search *s, const pl_exact_item *item)
 static void sort_items(search *s)
 {
     pl_exact_solver *e = s->exact;
-    pl_exact_item *items = e->items.data, *sorted = items + e->item_count;
+    pl_exact_item *items = e->items.data;
+    pl_exact_item *sorted =
+        e->item_count > 0 ? items + e->item_count : items; // of none there is no array
     pl_exact_island *islands = e->islands.data;
     for (uint32_t i = 0; i < e->item_count; ++i) {
         pl_exact_island *island = island_of(s, &items[i]);

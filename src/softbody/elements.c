@@ -460,9 +460,9 @@ double pl_soft_elements(plumb_world *world, double h, bool fills)
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
 {
     const plumb_softbody_node *nodes = pl_softbody_nodes(&world->softbodies) + at.node;
-    const uint32_t *ring = pl_softbody_rings(&world->softbodies) + at.ring;
     double area = 0, p[2], q[2];
     for (uint32_t i = 0; i < item->ring; ++i) {
+        const uint32_t *ring = pl_softbody_rings(&world->softbodies) + at.ring;
         pl_soft_node_place(&nodes[ring[i]], p);
         pl_soft_node_place(&nodes[ring[(i + 1) % item->ring]], q);
         area += (p[0] * q[1] - p[1] * q[0]) / 2;

@@ -134,7 +134,7 @@ double pl_soft_gap(const plumb_world *world, const pl_softbody *item, pl_softbod
 {
     const double most = (double)PL_SPECULATIVE, moved = pl_soft_way_of_row(world, row, dt);
     const pl_box box = pl_piece_tight_box(world, piece);
-    const plumb_softbody_pin *pins = pl_softbody_pins(&world->softbodies) + at.pin;
+    const plumb_softbody_pin *pins = pl_softbody_pins(&world->softbodies);
     pl_soft_obstacle o;
     uint32_t pin = 0;
     double least = INFINITY;
@@ -144,7 +144,7 @@ double pl_soft_gap(const plumb_world *world, const pl_softbody *item, pl_softbod
     }
     for (uint32_t i = 0; i < item->nodes; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(&world->softbodies)[at.node + i];
-        const bool pinned = pin < item->pins && pins[pin].node == i;
+        const bool pinned = pin < item->pins && pins[at.pin + pin].node == i;
         const double way =
             moved + 2 * dt * (fabs((double)n->velocity.x) + fabs((double)n->velocity.y));
         const double by = most + way + (double)n->radius;

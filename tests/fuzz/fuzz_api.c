@@ -120,6 +120,161 @@ static void order(plumb_world *w, script *s, plumb_entity body)
     }
 }
 
+// A body that can be divided: of shapes with any numbers few are.
+static plumb_body solid_of(plumb_world *w, script *s)
+{
+    const plumb_body b =
+        plumb_body_create(w, &(plumb_body_desc){ .position = vec_of(s), .velocity = vec_of(s) });
+    const plumb_real size = (plumb_real)(1 + byte_of(s) % 8) / 4;
+    plumb_shape_desc d = { .kind = byte_of(s) % 2 == 0 ? PLUMB_BOX : PLUMB_CIRCLE };
+    d.radius = d.kind == PLUMB_CIRCLE ? size : 0;
+    d.half = d.kind == PLUMB_BOX ? (plumb_vec2){ size, size / 2 } : (plumb_vec2){ 0, 0 };
+    plumb_shape_create(w, b, &d);
+    return b;
+}
+
+static int small_of(script *s, int most)
+{
+    return (int)byte_of(s) % (most + 1);
+}
+
+// Bodies are cut, shatter, become one, grow and may break: at once, or by commands.
+static void divide(plumb_world *w, script *s, plumb_body body, plumb_body other)
+{
+    plumb_body parts[4];
+    const plumb_vec2 near = plumb_body_center(w, body), aside = vec_of(s), along = vec_of(s);
+    const plumb_vec2 point = { near.x + aside.x / 8, near.y + aside.y / 8 };
+    plumb_shatter_desc d = { .point = point, .cells = small_of(s, 20), .seed = byte_of(s) };
+    d.even = byte_of(s) % 2 == 0 ? 1 : real_of(s);
+    switch (byte_of(s) % 10) {
+    case 0:
+        plumb_body_cut(w, body, point, along, parts, 4);
+        break;
+    case 1:
+        plumb_body_shatter(w, body, byte_of(s) % 8 == 0 ? NULL : &d, parts, 4);
+        break;
+    case 2:
+        plumb_body_merge(w, body, other, NULL);
+        break;
+    case 3:
+        plumb_body_scale(w, body, 1 + along.x / 16);
+        break;
+    case 4:
+        plumb_command_body_cut(w, body, point, along);
+        break;
+    case 5:
+        plumb_command_body_shatter(w, body, byte_of(s) % 8 == 0 ? NULL : &d);
+        break;
+    case 6:
+        plumb_command_body_merge(w, body, other);
+        break;
+    case 7:
+        plumb_command_body_scale(w, body, along.y);
+        break;
+    case 8:
+        plumb_body_set_break_impulse(w, body, along.x);
+        plumb_body_set_break_force(w, body, along.y);
+        break;
+    default:
+        plumb_commands_apply(w);
+        break;
+    }
+}
+
+static plumb_softbody soft_of(plumb_world *w, script *s, plumb_body body)
+{
+    const plumb_vec2 at = vec_of(s);
+    const plumb_vec2 corners[] = {
+        { at.x, at.y }, { at.x + 1, at.y }, { at.x + 1, at.y + 1 }, { at.x, at.y + 1 }
+    };
+    switch (byte_of(s) % 4) {
+    case 0:
+        return plumb_rope_create(w, &(plumb_rope_desc){ .from = at,
+                                                        .to = vec_of(s),
+                                                        .nodes = small_of(s, 12),
+                                                        .bending = real_of(s),
+                                                        .drag = real_of(s),
+                                                        .hold_from = byte_of(s) % 2 == 0,
+                                                        .to_body = body });
+    case 1:
+        return plumb_cloth_create(w, &(plumb_cloth_desc){ .low = at,
+                                                          .high = corners[2],
+                                                          .columns = 1 + small_of(s, 3),
+                                                          .rows = 1 + small_of(s, 3),
+                                                          .break_strain = real_of(s) / 8,
+                                                          .hold_corners = byte_of(s) % 2 == 0 });
+    case 2:
+        return plumb_jelly_create(w,
+                                  &(plumb_jelly_desc){ .points = corners,
+                                                       .count = 4,
+                                                       .spacing = (plumb_real)0.4 + real_of(s) / 64,
+                                                       .velocity = vec_of(s) });
+    default:
+        return plumb_skin_create(w, &(plumb_skin_desc){ .center = at,
+                                                        .radius = real_of(s) / 4,
+                                                        .nodes = 6 + small_of(s, 10),
+                                                        .pressure = 100 * real_of(s) });
+    }
+}
+
+static void settle(plumb_world *w, script *s, plumb_softbody soft, plumb_body body)
+{
+    switch (byte_of(s) % 8) {
+    case 0:
+    case 1:
+    case 2:
+        plumb_softbody_sleep(w, soft);
+        break;
+    case 3:
+        plumb_softbody_wake(w, soft);
+        break;
+    case 4:
+        plumb_softbody_set_no_sleep(w, soft, byte_of(s) % 2 == 0);
+        break;
+    case 5:
+        plumb_softbody_hold(w, soft, small_of(s, 8), body, vec_of(s));
+        break;
+    case 6:
+        plumb_softbody_release(w, soft, small_of(s, 8));
+        break;
+    default:
+        plumb_softbody_destroy(w, soft);
+        break;
+    }
+}
+
+// Any world has an image, which it takes.
+static void go_back(plumb_world *w)
+{
+    const size_t size = plumb_world_snapshot_size(w);
+    const uint64_t hash = plumb_world_hash(w);
+    char *image = malloc(size);
+    if (image == NULL || plumb_world_save(w, image, size) != PLUMB_OK ||
+        plumb_world_restore(w, image, size) != PLUMB_OK || plumb_world_hash(w) != hash) {
+        abort();
+    }
+    free(image);
+}
+
+static void look(plumb_world *w)
+{
+    const plumb_body_span b = plumb_world_bodies(w);
+    for (int i = 0; i < b.count; ++i) {
+        if (!isfinite(b.x[i] + b.y[i] + b.vx[i] + b.vy[i] + b.w[i] + b.c[i] + b.s[i])) {
+            abort();
+        }
+    }
+    int count, all;
+    const plumb_body_break *e = plumb_world_body_break_events(w, &count);
+    const plumb_body *parts = plumb_world_body_break_parts(w, &all);
+    for (int i = 0; i < count; ++i) {
+        if (e[i].first_part < 0 || e[i].part_count < 1 || e[i].first_part + e[i].part_count > all ||
+            plumb_is_null(parts[e[i].first_part])) {
+            abort();
+        }
+    }
+}
+
 // `calls`: of how many kinds the script may choose.
 static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned calls)
 {
@@ -218,8 +373,33 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
     case 29:
         order(w, s, other);
         break;
+    case 36:
+    case 37:
+    case 38:
+    case 39:
+    case 40:
+    case 41:
+        divide(w, s, (plumb_body){ other }, (plumb_body){ *slot });
+        break;
+    case 42:
+    case 43:
+        *slot = soft_of(w, s, (plumb_body){ other }).entity;
+        break;
+    case 44:
+    case 45:
+    case 46:
+        settle(w, s, (plumb_softbody){ *slot }, (plumb_body){ other });
+        break;
+    case 47:
+        go_back(w);
+        break;
+    case 48:
+    case 49:
+        *slot = solid_of(w, s).entity;
+        break;
     default:
         plumb_world_step(w, real_of(s) / 64);
+        look(w);
         break;
     }
 }
@@ -231,10 +411,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     plumb_entity e[HANDLES] = { { 0, 0 } };
     plumb_world *w = NULL;
     // Seeds from before there were sleep and joints begin with less than 128, those from before there
-    // were characters with less than 192.
+    // were characters with less than 192, those from before bodies were divided with less than 224 or with 255.
     unsigned first = byte_of(&s);
     plumb_world_desc d = { .solver = (plumb_solver)(first % 3), .simd_width = 4 };
-    const unsigned calls = first < 128 ? 12 : first < 192 ? 25 : 36;
+    const unsigned calls = first < 128                   ? 12
+                           : first < 192                 ? 25
+                           : first < 224 || first == 255 ? 36
+                                                         : 60;
     d.sleep_time = first < 128 ? 0 : (plumb_real)0.1;
     if (plumb_world_create(&d, &w) != PLUMB_OK) {
         abort();
