@@ -20,6 +20,16 @@ static render_vec place_of(const plumb_softbody_desc *d, uint32_t node)
 
 // ---- filled
 
+/// Contacts are with circles at the nodes of the surface: it is as far out as they are.
+static void add_side(const plumb_softbody_desc *d, uint32_t a, uint32_t b, render_frame *frame)
+{
+    const double r = (double)plumb_min(d->nodes[a].radius, d->nodes[b].radius);
+    const render_vec from = place_of(d, a), to = place_of(d, b);
+    if (r > 0) {
+        render_add_capsule(frame, from.x, from.y, to.x, to.y, r);
+    }
+}
+
 static void add_triangles(const plumb_softbody_desc *d, render_frame *frame, const render_style *s)
 {
     render_body_begin(frame, s);
@@ -27,6 +37,9 @@ static void add_triangles(const plumb_softbody_desc *d, render_frame *frame, con
         const plumb_softbody_triangle *t = &d->triangles[i];
         const render_vec p[3] = { place_of(d, t->a), place_of(d, t->b), place_of(d, t->c) };
         render_add_polygon(frame, p, 3, 0);
+        add_side(d, t->a, t->b, frame);
+        add_side(d, t->b, t->c, frame);
+        add_side(d, t->c, t->a, frame);
     }
     render_body_end(frame);
 }
