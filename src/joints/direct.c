@@ -463,20 +463,12 @@ static void fill_sides(const joint_system *s, bool arcs)
     }
 }
 
-static double within_bounds(const pl_row_law *law, double total)
-{
-    return total < law->low ? law->low : total > law->high ? law->high : total;
-}
-
-// Passes may end, and arcs be added, with who is at a bound not found: no bound is passed for that.
 static void apply(const joint_system *s)
 {
     for (uint32_t c = s->first; c < s->end; ++c) {
         pl_direct_part *p = &s->parts[c];
         for (int k = 0; k < p->count; ++k) {
-            const int i = p->row[k];
-            const double total = (double)p->lone.joint->impulse[i] + p->x[k];
-            push(p, i, i < p->lone.joint->rows.block ? total : within_bounds(&p->law[i], total));
+            push(p, p->row[k], (double)p->lone.joint->impulse[p->row[k]] + p->x[k]);
         }
     }
 }
@@ -492,6 +484,16 @@ static void factor(const joint_system *s)
     }
 }
 
+// Holds those who would leave their bounds, and whom that makes leave theirs, until none does.
+static void hold_all(const joint_system *s, bool arcs)
+{
+    for (int pass = 0; pass < PASSES && hold_to_bounds(s); ++pass) {
+        factor(s);
+        fill_sides(s, arcs);
+        substitute(s);
+    }
+}
+
 static void solve_system(const joint_system *s, pl_joint_sweep sweep)
 {
     for (uint32_t c = s->first; c < s->end; ++c) {
@@ -504,13 +506,15 @@ static void solve_system(const joint_system *s, pl_joint_sweep sweep)
         if (pass == 0 && sweep == PL_SWEEP_PULL && stiffen(s)) {
             continue;
         }
-        if (hold_to_bounds(s) && pass < PASSES - 1) {
+        if (pass < PASSES - 1 && hold_to_bounds(s)) {
             continue;
         }
+        hold_all(s, false);
         apply(s);
         if (sweep == PL_SWEEP_PULL) {
             fill_sides(s, true);
             substitute(s);
+            hold_all(s, true);
             apply(s);
         }
         if (!let_go(s)) {
