@@ -264,10 +264,10 @@ PLUMB_API plumb_result plumb_system_create(plumb_world *world, const plumb_syste
 /// Switches a system off or on. Errors: E_NULL, E_MISSING.
 PLUMB_API plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enabled);
 
-/// Commands: structural changes asked for during a step (those that cut and merge bodies: plumb/fracture.h), carried out in order at the start of the next
-/// one (or by plumb_commands_apply). Handles returned are valid at once and come alive when applied;
-/// a command on something that has died meanwhile is dropped and counted as a warning in the log.
-/// Descriptors are checked when the command is given; the same errors as the direct calls, no E_LOCKED.
+/// Commands: structural changes asked for during a step (those that cut and merge bodies: plumb/fracture.h), carried out in
+/// order at the start of the next one (or by plumb_commands_apply). Handles returned are valid at once and come alive when
+/// applied; a command on something that has died meanwhile is dropped and counted as a warning in the log. Descriptors are
+/// checked when the command is given; the same errors as the direct calls, no E_LOCKED.
 PLUMB_API plumb_body plumb_command_body_create(plumb_world *world, const plumb_body_desc *desc);
 PLUMB_API plumb_shape plumb_command_shape_create(plumb_world *world, plumb_body body,
                                                  const plumb_shape_desc *desc);

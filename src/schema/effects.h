@@ -37,8 +37,9 @@
       "surfaces of water that bodies stir")                                                                                    \
     X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/orbits.c",            \
       "charge attraction", "forces at a distance: attractors, gravitation, zones, magnetic fields")                            \
-    X(FRACTURE, "fracture", "", "src/api/breaking.c src/api/command_fracture.c src/api/divide.c src/api/fracture.c src/api/fragments.c src/api/merge.c "  \
-      "src/event/breaking.c src/geometry/region.c", "break_force break_impulse break_energy break_cells",                      \
+    X(FRACTURE, "fracture", "", "src/api/breaking.c src/api/command_fracture.c src/api/divide.c src/api/fracture.c "           \
+      "src/api/fragments.c src/api/merge.c src/event/breaking.c src/geometry/region.c",                                        \
+      "break_force break_impulse break_energy break_cells",                                                                    \
       "bodies that are cut, break, merge, grow and shrink")                                                                    \
     X(HEAT, "heat", "fracture", "src/effects/heat.c src/api/heat_run.c",                                                       \
       "temperature heat_capacity conductance emissivity ambient heating melting_point latent_heat melt_phase ignition "        \
