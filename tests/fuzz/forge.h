@@ -163,8 +163,8 @@ static inline void give_commands(plumb_world *w, int which)
         plumb_command_teleport(w, body, (plumb_vec2){ 1, 5 }, 1);
         const plumb_body first = plumb_world_bodies(w).body[0];
         plumb_command_body_cut(w, body, (plumb_vec2){ R(1.2), 5 }, (plumb_vec2){ 1, 1 });
-        plumb_command_body_shatter(
-            w, first, &(plumb_shatter_desc){ .cells = 3, .even = R(0.5), .seed = 1 });
+        plumb_command_body_shatter(w, first,
+                                   &(plumb_shatter_desc){ .cells = 3, .even = R(0.5), .seed = 1 });
         plumb_command_body_scale(w, first, R(1.5));
         plumb_command_body_merge(w, first, body);
         plumb_command_destroy(w, first.entity);
