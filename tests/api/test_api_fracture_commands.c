@@ -586,18 +586,7 @@ static uint64_t play(heap *h, long fail_at, long *asked, int *refused)
 static void any_allocation_may_fail(void **state)
 {
     (void)state;
-    static heap h;
-    long asked, unused;
-    int refused = 0;
-    const uint64_t hash = play(&h, -1, &asked, &refused);
-    assert_int_equal(refused, 0);
-    assert_in_range(asked, 8, 1000);
-    for (long k = 0; k < asked; ++k) {
-        refused = 0;
-        assert_true(play(&h, k, &unused, &refused) == hash);
-        assert_int_equal(refused, 1);
-    }
-    print_message("%ld allocations, each failed once\n", asked);
+    heap_fail_each(play, 8, 1000);
 }
 
 int main(void)

@@ -528,23 +528,21 @@ static uint64_t play(heap *h, bool soft, long fail_at, long *calls, int *refused
     return hash;
 }
 
+static uint64_t play_water(heap *h, long fail_at, long *calls, int *refused)
+{
+    return play(h, false, fail_at, calls, refused);
+}
+
+static uint64_t play_soft(heap *h, long fail_at, long *calls, int *refused)
+{
+    return play(h, true, fail_at, calls, refused);
+}
+
 static void any_allocation_may_fail(void **state)
 {
     (void)state;
-    static heap h;
-    for (int soft = 0; soft < 2; ++soft) {
-        long calls, unused;
-        int refused = 0;
-        const uint64_t hash = play(&h, soft, -1, &calls, &refused);
-        assert_int_equal(refused, 0);
-        assert_in_range(calls, 12, 400);
-        for (long k = 0; k < calls; ++k) {
-            refused = 0;
-            assert_true(play(&h, soft, k, &unused, &refused) == hash);
-            assert_int_equal(refused, 1);
-        }
-        print_message("%ld allocations, each failed once\n", calls);
-    }
+    heap_fail_each(play_water, 12, 400);
+    heap_fail_each(play_soft, 12, 400);
 }
 
 // What the liquid put on bodies in a step that went well is no business of a later one that is refused.

@@ -352,18 +352,7 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
 static void any_allocation_may_fail(void **state)
 {
     (void)state;
-    static heap h;
-    long calls, unused;
-    int refusals = 0;
-    const uint64_t end = play(&h, -1, &calls, &refusals);
-    assert_int_equal(refusals, 0);
-    assert_in_range(calls, 20, 400);
-    for (long k = 0; k < calls; ++k) {
-        refusals = 0;
-        assert_true(play(&h, k, &unused, &refusals) == end);
-        assert_int_equal(refusals, 1);
-    }
-    print_message("%ld allocations, each failed once\n", calls);
+    heap_fail_each(play, 20, 400);
 }
 
 static void a_steady_step_allocates_nothing(void **state)

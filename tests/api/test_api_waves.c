@@ -572,18 +572,7 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refused)
 static void any_allocation_may_fail(void **state)
 {
     (void)state;
-    static heap h;
-    long calls, unused;
-    int refused = 0;
-    const uint64_t hash = play(&h, -1, &calls, &refused);
-    assert_int_equal(refused, 0);
-    assert_in_range(calls, 8, 200);
-    for (long k = 0; k < calls; ++k) {
-        refused = 0;
-        assert_true(play(&h, k, &unused, &refused) == hash);
-        assert_int_equal(refused, 1);
-    }
-    print_message("%ld allocations, each failed once\n", calls);
+    heap_fail_each(play, 8, 200);
 }
 
 int main(void)

@@ -59,3 +59,19 @@ void heap_fail(heap *h, long calls)
 {
     h->fail_at = calls < 0 ? -1 : h->calls + calls;
 }
+
+void heap_fail_each(heap_play *play, long least, long most)
+{
+    static heap h;
+    long calls, unused;
+    int refused = 0;
+    const uint64_t end = play(&h, -1, &calls, &refused);
+    assert_int_equal(refused, 0);
+    assert_in_range(calls, least, most);
+    for (long k = 0; k < calls; ++k) {
+        refused = 0;
+        assert_true(play(&h, k, &unused, &refused) == end);
+        assert_int_equal(refused, 1);
+    }
+    print_message("%ld allocations, each failed once\n", calls);
+}

@@ -33,4 +33,11 @@ plumb_allocator heap_allocator(heap *h);
 /// Refuses the call after the next `calls` ones; negative: none.
 void heap_fail(heap *h, long calls);
 
+/// Plays a world from its beginning to its end, asking again for what is refused: with its allocation `fail_at` refused (-1: none),
+/// how many it made in all, how often it was refused. Returns what the world came to.
+typedef uint64_t heap_play(heap *h, long fail_at, long *calls, int *refused);
+
+/// Refuses each allocation of a play once: it is told once, and the end is the same. A play makes `least` to `most`.
+void heap_fail_each(heap_play *play, long least, long most);
+
 #endif
