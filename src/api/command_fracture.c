@@ -115,10 +115,9 @@ static plumb_result dropped(plumb_world *world, const pl_command *r, plumb_resul
 // The left side of the line of a cut: events have a unit normal.
 static plumb_vec2 normal_of(plumb_vec2 along)
 {
-    const double x = (double)along.x, y = (double)along.y;
-    const double scale = fabs(x) > fabs(y) ? fabs(x) : fabs(y);
-    const double length = sqrt(x / scale * (x / scale) + y / scale * (y / scale));
-    return plumb_v2((plumb_real)(-(y / scale) / length), (plumb_real)(x / scale / length));
+    double way[2];
+    const double length = pl_cut_way(along, way);
+    return plumb_v2((plumb_real)(-way[1] / length), (plumb_real)(way[0] / length));
 }
 
 static plumb_result run_division(plumb_world *world, const pl_command *r, const char *payload)

@@ -76,6 +76,13 @@ plumb_result pl_cut_check(const plumb_world *world, const char *function, plumb_
                : pl_fail(world, PLUMB_E_RANGE, function, "along is (0, 0); it must not be 0");
 }
 
+double pl_cut_way(plumb_vec2 along, double way[2])
+{
+    const double scale = pl_larger(fabs((double)along.x), fabs((double)along.y));
+    way[0] = (double)along.x / scale, way[1] = (double)along.y / scale;
+    return sqrt(way[0] * way[0] + way[1] * way[1]);
+}
+
 // The two sides of a line, in the frame of the body of `row`, in double.
 static pl_cells sides_of(const plumb_world *world, uint32_t row, plumb_vec2 point, plumb_vec2 along)
 {
@@ -83,10 +90,9 @@ static pl_cells sides_of(const plumb_world *world, uint32_t row, plumb_vec2 poin
     const double c = (double)b->c[row], s = (double)b->s[row];
     const double dx = (double)point.x - (double)b->x[row], dy = (double)point.y - (double)b->y[row];
     const double px = c * dx + s * dy, py = c * dy - s * dx;
-    const double scale = pl_larger(fabs((double)along.x), fabs((double)along.y));
-    const double ax = (double)along.x / scale, ay = (double)along.y / scale;
-    const double length = sqrt(ax * ax + ay * ay);
-    const double nx = -(c * ay - s * ax) / length, ny = (c * ax + s * ay) / length;
+    double way[2];
+    const double length = pl_cut_way(along, way);
+    const double nx = -(c * way[1] - s * way[0]) / length, ny = (c * way[0] + s * way[1]) / length;
     return (pl_cells){ .count = 2, .is_line = true, .line = { nx, ny, nx * px + ny * py } };
 }
 

@@ -45,6 +45,8 @@ plumb_result pl_divide(plumb_world *world, const char *function, plumb_body body
 
 // Whether some shape of a body has an area.
 bool pl_is_divisible(const plumb_world *world, uint32_t row);
+// The way of a line as a vector of length 1 to 1.5, which no length of `along` overflows. Returns its length.
+double pl_cut_way(plumb_vec2 along, double way[2]);
 plumb_result pl_cut_check(const plumb_world *world, const char *function, plumb_vec2 point,
                           plumb_vec2 along);
 plumb_result pl_shatter_check(const plumb_world *world, const char *function,
