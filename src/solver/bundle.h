@@ -211,6 +211,7 @@ pl_contact_kernel PL_WIDE_NAME(pl_contact_tally), PL_WIDE_NAME(pl_contact_store)
 pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare_moment), PL_WIDE_NAME(pl_contact_open_moment),
     PL_WIDE_NAME(pl_contact_follow_moment);
 pl_range_fn PL_WIDE_NAME(pl_bodies_halve), PL_WIDE_NAME(pl_bodies_drift); // halves.simd.c
+pl_place_kernel PL_WIDE_NAME(pl_bodies_place);                            // finish.simd.c
 void PL_WIDE_NAME(pl_contact_measure)(const pl_contact_call *call, uint32_t first, uint32_t count,
                                       struct pl_measuring *m);
 void PL_WIDE_NAME(pl_contact_residual)(const pl_contact_call *call, uint32_t first, uint32_t count,

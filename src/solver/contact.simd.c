@@ -345,6 +345,7 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .follow_moment = PL_WIDE_NAME(pl_contact_follow_moment),
     .halve = PL_WIDE_NAME(pl_bodies_halve),
     .drift = PL_WIDE_NAME(pl_bodies_drift),
+    .place = PL_WIDE_NAME(pl_bodies_place),
     .tally = PL_WIDE_NAME(pl_contact_tally),
     .store_extras = PL_WIDE_NAME(pl_contact_store_extras),
     .measure = PL_WIDE_NAME(pl_contact_measure),

@@ -3,29 +3,24 @@
 //
 // A body in no contact flies freely: x += v dt + a dt^2 / 2, the exact parabola, once for the whole
 // step. Rotations turn by the exact angle. Bodies that moved farther than their slack are noted for the
-// continuous pass, with where they came from. Reads: solver bodies, forces. Writes: transforms,
-// velocities, poses, movers; clears forces. Cost: O(dynamic and kinematic bodies).
-#include "world/marks.h"
-#include "solver/solver.h"
+// continuous pass, with where they came from. W rows at a time go through lanes where all are plain (finish.simd.c).
+//
+// Reads: solver bodies, forces. Writes: transforms, velocities, poses, movers; clears forces. Cost: O(dynamic and
+// kinematic bodies).
+#include "solver/finish.h"
+
 #include "effects/effects.h"
 #include "effects/laws.h"
-#include "world/body_settings.h"
 #include "plumb/math.h"
+#include "world/body_settings.h"
 #include "world/flight.h"
-#include "world/state.h"
+#include "world/marks.h"
 
 #include <string.h>
 
-// A speed [m/s, rad/s] below this counts as none: see flight.h.
-#if PL_NEAR_IS_DOUBLE
-#define NO_SPEED 1e-150
-#else
-#define NO_SPEED 1e-20f
-#endif
-
 static real noticed(real speed)
 {
-    return plumb_abs(speed) > NO_SPEED ? speed : 0;
+    return plumb_abs(speed) > PL_NO_SPEED ? speed : 0;
 }
 
 // Returns the angle by which the body turned.
@@ -84,21 +79,6 @@ static bool is_sane(real v)
 {
     return v >= -PL_LARGEST && v <= PL_LARGEST; // false for NaN
 }
-
-// What the bodies of a share have in common.
-typedef struct passage {
-    plumb_world *world;
-    real dt;
-    bool collided; // the graph was made in this step
-    bool noting;
-    bool orbits; // some bodies fly where laws lead them
-    const near_real *residuals;
-    uint32_t shares;
-    struct {
-        uint32_t count; // movers, noted where the share's rows begin
-        bool lost;      // some body of it was
-    } made[PLUMB_WORKERS_MAX];
-} passage;
 
 // A body whose points may have moved farther than its slack is noted for the continuous pass. Returns
 // how many were.
@@ -166,7 +146,7 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
 }
 
 // Of a world in which some fly where laws lead them. Not inlined: the others fly as they did.
-static __attribute__((noinline)) bool took_orbit(const passage *p, uint32_t row, real *angle)
+static __attribute__((noinline)) bool took_orbit(const pl_finish *p, uint32_t row, real *angle)
 {
     const bool orbits = pl_law_way_of(p->world, row) == PL_LAW_FLIES;
     *angle = orbits ? take_flight(p->world, row, *pl_orbit_of(p->world, row)) : 0;
@@ -174,7 +154,7 @@ static __attribute__((noinline)) bool took_orbit(const passage *p, uint32_t row,
 }
 
 // Moves a dynamic body; returns the angle by which it turned.
-static real move_dynamic(const passage *p, uint32_t row)
+static real move_dynamic(const pl_finish *p, uint32_t row)
 {
     plumb_world *world = p->world;
     const bool has_effects = (world->bodies.flags[row] & PL_BODY_HAS_EFFECTS) != 0;
@@ -202,7 +182,7 @@ static real move_dynamic(const passage *p, uint32_t row)
     return body->da;
 }
 
-static real move_kinematic(const passage *p, uint32_t row)
+static real move_kinematic(const pl_finish *p, uint32_t row)
 {
     pl_bodies *b = &p->world->bodies;
     bool has_settings = (b->flags[row] & PL_BODY_HAS_SETTINGS) != 0;
@@ -213,28 +193,46 @@ static real move_kinematic(const passage *p, uint32_t row)
     return time * b->w[row];
 }
 
-static void move_share(void *context, uint32_t i)
+// One row; movers are noted behind the `count` that there are. Returns whether it was lost.
+static bool move_row(const pl_finish *p, uint32_t row, pl_mover *movers, uint32_t *count)
 {
-    passage *p = context;
     plumb_world *world = p->world;
     pl_bodies *b = &world->bodies;
+    const where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
+    real angle;
+    if (row < world->dynamic_count) {
+        angle = move_dynamic(p, row);
+        b->fx[row] = b->fy[row] = b->torque[row] = 0;
+    } else {
+        angle = move_kinematic(p, row);
+    }
+    const bool lost = arrest_if_lost(world, row, before);
+    pl_body_update_origin(world, row);
+    if (p->noting) {
+        *count += note_if_fast(world, row, before, angle, &movers[*count]);
+    }
+    return lost;
+}
+
+static void move_share(void *context, uint32_t i)
+{
+    pl_finish *p = context;
+    plumb_world *world = p->world;
     const pl_share rows = pl_share_of(world->dynamic_count + world->kinematic_count, p->shares, i);
+    const pl_contact_kernels *kernels = pl_solver_kernels(world);
+    const uint32_t width = (uint32_t)kernels->width;
     pl_mover *movers = p->noting ? pl_movers(&world->continuous) + rows.first : NULL;
     uint32_t count = 0;
     bool lost = false;
-    for (uint32_t row = rows.first; row < rows.end; ++row) {
-        where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        real angle;
-        if (row < world->dynamic_count) {
-            angle = move_dynamic(p, row);
-            b->fx[row] = b->fy[row] = b->torque[row] = 0;
-        } else {
-            angle = move_kinematic(p, row);
+    for (uint32_t row = rows.first; row < rows.end;) {
+        const uint32_t end = row + width;
+        if (!p->orbits && end <= rows.end && end <= world->dynamic_count &&
+            kernels->place(p, row, movers, &count)) {
+            row = end;
+            continue;
         }
-        lost |= arrest_if_lost(world, row, before);
-        pl_body_update_origin(world, row);
-        if (p->noting) {
-            count += note_if_fast(world, row, before, angle, &movers[count]);
+        for (uint32_t last = end < rows.end ? end : rows.end; row < last; ++row) {
+            lost |= move_row(p, row, movers, &count);
         }
     }
     p->made[i].count = count;
@@ -242,7 +240,7 @@ static void move_share(void *context, uint32_t i)
 }
 
 // Movers in order of rows, without gaps.
-static void close_up(passage *p)
+static void close_up(pl_finish *p)
 {
     pl_continuous *c = &p->world->continuous;
     const uint32_t rows = p->world->dynamic_count + p->world->kinematic_count;
@@ -259,13 +257,14 @@ static void close_up(passage *p)
 void pl_solver_finish(plumb_world *world, real dt)
 {
     const uint32_t rows = world->dynamic_count + world->kinematic_count;
-    passage p = { .world = world,
-                  .dt = dt,
-                  .collided = world->solver.slot_count > 0,
-                  .noting = world->continuous.noting,
-                  .orbits = world->laws.step.flies,
-                  .residuals = world->solver.follows_impacts ? world->solver.residuals.data : NULL,
-                  .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
+    pl_finish p = { .world = world,
+                    .dt = dt,
+                    .collided = world->solver.slot_count > 0,
+                    .noting = world->continuous.noting,
+                    .orbits = world->laws.step.flies,
+                    .residuals =
+                        world->solver.follows_impacts ? world->solver.residuals.data : NULL,
+                    .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
     pl_tasks_run(world->tasks, move_share, &p, p.shares);
     bool lost = false;
     for (uint32_t i = 0; i < p.shares; ++i) {

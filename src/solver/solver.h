@@ -132,8 +132,14 @@ typedef struct pl_contact_call {
 #define PL_LEAST_WAY  ((near_real)4e-5)
 
 struct pl_measuring;
+struct pl_finish;
+struct pl_mover;
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
+// Moves W dynamic rows at the end of a step, and notes movers behind the `count` that there are. False: it has done
+// nothing, and each row is to be moved by itself (finish.simd.c).
+typedef bool pl_place_kernel(const struct pl_finish *p, uint32_t row, struct pl_mover *movers,
+                             uint32_t *count);
 
 // Variants of the sweeps: what surfaces do, times motion. Scenes pay only for what they have.
 typedef enum pl_surface_variant {
@@ -182,6 +188,7 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *prepare_grips, *store_grips;                  // after prepare, after store
     pl_contact_kernel *prepare_moment, *open_moment, *follow_moment; // moment.simd.c
     pl_range_fn *halve, *drift; // of a pl_passage (substep.h): halves.simd.c
+    pl_place_kernel *place;     // of all bodies, at the end of the step
     pl_contact_kernel *tally;   // adds the substep's normal impulses to the totals
     // rolling impulses to the pairs; totals, speeds of hits to the manifolds
     pl_contact_kernel *store_extras;

@@ -82,7 +82,7 @@ static void collect(const plumb_world *w, const island *i, outcome *out)
     }
 }
 
-enum { ALONE, LEFT_FIRST, RIGHT_FIRST, IN_TURNS, AMONG_OTHERS, ORDERS };
+enum { ALONE, LEFT_FIRST, RIGHT_FIRST, IN_TURNS, AMONG_DAMPED, AMONG_OTHERS, ORDERS };
 
 static void run(plumb_solver solver, int order, outcome *left, outcome *right)
 {
@@ -116,6 +116,16 @@ static void run(plumb_solver solver, int order, outcome *left, outcome *right)
         for (int n = 0; n < BODIES; ++n) {
             add(w, n % 2 == 0 ? &a : &b);
             add(w, n % 2 == 0 ? &b : &a);
+        }
+        break;
+    case AMONG_DAMPED:
+        // Far bodies whose motion is another stand between theirs: what is done in lanes elsewhere is not here.
+        begin(w, &a);
+        begin(w, &b);
+        for (int n = 0; n < BODIES; ++n) {
+            plumb_body_create(w, &(plumb_body_desc){ .position = { R(200 + n), 0 }, .damping = 1 });
+            add(w, &a);
+            add(w, &b);
         }
         break;
     default:
