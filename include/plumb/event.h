@@ -1,5 +1,5 @@
 /// event.h - what happened in the last step: arrays, valid until the next step or structural change.
-/// There are no callbacks inside the solver.
+/// There are no callbacks inside the solver. Whom the liquid touches is told in plumb/liquid.h.
 ///
 /// What outlives what. Events are told of what was there in the step; whatever is destroyed afterwards, they stay as
 /// they are until the next step (ask for an array again after a structural change: it may have moved). A handle in an

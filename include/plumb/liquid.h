@@ -116,6 +116,60 @@ PLUMB_API int plumb_liquid_change_phase(plumb_world *world, plumb_vec2 low, plum
 /// step, or change of the liquid. Null without any, or without a world.
 PLUMB_API const plumb_particle *plumb_liquid_particles(const plumb_world *world, int *count);
 
+//---- what is where -------------------------------------------------------------------------------
+
+/// The liquid at a place.
+typedef struct plumb_liquid_sample {
+    plumb_real fill;     ///< [-] how full the liquid round the place is: 1 within, 0.5 at its surface and along walls, 0 where none
+                         ///< is within three spacings. Quadratic B-splines of the particles, a cell (two spacings) wide
+    plumb_vec2 velocity; ///< [m/s] mean of the particles round it, each as its gradient has it there; 0 where fill is
+    uint32_t phase;      ///< of the nearest particle; 0 where there is none
+} plumb_liquid_sample;
+
+/// What is at a place [m]: whether a hero can breathe there, where an oar dips in (fill >= 0.5). {0} where there is nothing, and on
+/// error (see plumb_world_error): E_NULL, E_STATE (no liquid), E_NOT_FINITE. The first question after particles moved files
+/// them anew, O(particles); E_MEMORY. Then O(1): some 80 particles. A world that is asked goes on as one that is not.
+PLUMB_API plumb_liquid_sample plumb_liquid_at(plumb_world *world, plumb_vec2 position);
+
+/// Where a ray met the surface of the liquid.
+typedef struct plumb_liquid_hit {
+    plumb_vec2 point;    ///< [m]
+    plumb_vec2 normal;   ///< unit, out of the liquid; zero when the ray starts in it
+    plumb_real fraction; ///< [-] 0..1 along the ray
+    plumb_vec2 velocity; ///< [m/s] as that of plumb_liquid_sample
+    uint32_t phase;      ///< likewise
+} plumb_liquid_hit;
+
+/// The first place on the segment from `from` to `to` [m] where `fill` reaches 0.5; true when there is one. Straight down it tells
+/// how high the liquid stands. Within 1e-3 spacings; what is thinner than half a spacing may be missed. Shapes are not seen: a
+/// wall before the liquid is another question (plumb_world_ray). False also on error, as plumb_liquid_at; E_NULL also for `hit`.
+/// Cost: O(1) for each half spacing of the way within the box round all particles.
+PLUMB_API bool plumb_liquid_ray(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
+                                plumb_liquid_hit *hit);
+
+/// A dynamic body, or a soft one, that the liquid touched in the last step: some of its cells beside it were full.
+typedef struct plumb_liquid_contact {
+    plumb_body body;         ///< null: a soft body
+    plumb_softbody softbody; ///< null: a body
+    plumb_vec2 force;        ///< [N] what the liquid did to it, mean of the step: what lifts, drags and strikes it
+    plumb_real torque;       ///< [N m] about its centre of mass
+    bool began;              ///< it was dry in the step before: a splash, as hard as `force` says
+} plumb_liquid_contact;
+
+/// Those of the last step, by slot of body or soft body; *count is set (may be null). Null when there are none, after a step of
+/// dt 0, and after a restore. Valid as events are (plumb/event.h).
+PLUMB_API const plumb_liquid_contact *plumb_liquid_contacts(const plumb_world *world, int *count);
+
+/// What the liquid touched in the step before and touches no more, or is gone: its handle may be stale.
+typedef struct plumb_liquid_end {
+    plumb_body body;         ///< null: a soft body
+    plumb_softbody softbody; ///< null: a body
+} plumb_liquid_end;
+
+/// Those of the last step, as plumb_liquid_contacts has them. Whoever counts `began` and ends is right, also across a restore. A liquid
+/// that is destroyed ends nothing.
+PLUMB_API const plumb_liquid_end *plumb_liquid_ends(const plumb_world *world, int *count);
+
 PLUMB_END
 
 #endif

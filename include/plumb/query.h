@@ -119,7 +119,7 @@ typedef struct plumb_fluid_sample {
 } plumb_fluid_sample;
 
 /// The fluid at a point [m], of several volumes (plumb/material.h) that of the densest one, as soft bodies feel it; for
-/// sparks, smoke, leaves of a game's own. Liquid and air have their own (plumb/liquid.h, plumb_air_at). {0} where there is
+/// sparks, smoke, leaves of a game's own. Liquid and air have their own (plumb_liquid_at, plumb_air_at). {0} where there is
 /// none, and on error: E_NOT_FINITE, E_RANGE. Cost: plumb_world_overlap_point, and a volume's sides.
 PLUMB_API plumb_fluid_sample plumb_fluid_at(plumb_world *world, plumb_vec2 position);
 

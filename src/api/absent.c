@@ -24,6 +24,7 @@
 #include "joints/energy.h"
 #include "joints/measure.h"
 #include "liquid/liquid.h"
+#include "liquid/sample.h"
 #include "plumb/light.h"
 #include "softbody/softbody.h"
 #include "solver/measure.h"
@@ -225,6 +226,9 @@ WANT(pl_want_liquid)
 PASS(pl_run_liquid)
 PASS(pl_run_liquid_motion)
 WORLD(pl_liquid_undo)
+GIVES(bool, pl_liquid_file, true, plumb_world *world)
+GIVES(pl_liquid_fill, pl_liquid_fill_at, ((pl_liquid_fill){ 0 }), const pl_liquid *liquid, double x, double y)
+GIVES(double, pl_liquid_ray_to_surface, -1, const pl_liquid *liquid, double x, double y, double dx, double dy, double length)
 FREE(pl_liquid_free, pl_liquid)
 #endif
 

@@ -241,6 +241,7 @@ static void put(plumb_world *world, plumb_vec2 position, const plumb_particle *l
 {
     pl_liquid *liquid = &world->liquid;
     world->schedule_dirty |= liquid->count == 0;
+    liquid->index.fresh = false;
     plumb_particle *p = &pl_liquid_items(liquid)[liquid->count++];
     memcpy(p, like, sizeof *p);
     p->position = position;
@@ -481,6 +482,7 @@ int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
     }
     const uint32_t removed = liquid->count - kept;
     liquid->count = kept;
+    liquid->index.fresh &= removed == 0;
     world->schedule_dirty |= kept == 0 && removed > 0;
     return (int)removed;
 }

@@ -227,7 +227,7 @@ void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
         &scratch->links,      &scratch->solids,     &scratch->tile_solids, &scratch->phases,
         &scratch->blends,     &scratch->mixed,      &scratch->rooms,       &scratch->order,
         &scratch->supports,   &scratch->joined,     &scratch->nodes,       &scratch->rings,
-        &scratch->softbodies, &scratch->soft_links, &scratch->sides
+        &scratch->softbodies, &scratch->soft_links, &scratch->sides,       &scratch->touches
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);
@@ -246,5 +246,9 @@ void pl_liquid_free(pl_memory *memory, pl_liquid *liquid)
     pl_buffer_free(memory, &liquid->particles);
     pl_buffer_free(memory, &liquid->phases);
     pl_buffer_free(memory, &liquid->supports);
+    pl_buffer_free(memory, &liquid->contacts);
+    pl_buffer_free(memory, &liquid->ends);
+    pl_buffer_free(memory, &liquid->index.heads);
+    pl_buffer_free(memory, &liquid->index.next);
     *liquid = (pl_liquid){ .count = 0 };
 }

@@ -89,7 +89,9 @@ void pl_liquid_bear_rests(pl_liquid_grid *g, double push, double fall_x, double 
     for (uint32_t i = 0; i < g->link_count; ++i) {
         const pl_liquid_link *link = &g->links[i];
         const pl_liquid_ends at = ends_of(g, link);
-        if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
+        const bool wet = at.before != 0 || at.behind != 0;
+        g->bodies[link->body].wet |= wet;
+        if (link->rest > 0 && wet) {
             const double light = (double)pl_liquid_light_at(g, link->cell, link->upright);
             const double lift =
                 -push * (double)link->rest * (link->upright ? fall_y : fall_x) / light;

@@ -328,6 +328,15 @@ bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid);
 // Bodies have got their velocities: what the liquid did not know of.
 void pl_liquid_note_supports(plumb_world *world, real dt);
 
+//---- touch.c -------------------------------------------------------------------------------------
+
+// Room for what so many bodies and soft bodies will have to tell. False when out of memory.
+bool pl_liquid_reserve_touches(pl_memory *memory, pl_liquid *liquid, size_t count);
+bool pl_liquid_softbody_is_wet(const pl_liquid_grid *grid, const pl_liquid_softbody *body);
+// Contacts and ends of the step, before its supports take the place of those of the one before: the scratch's `supports`
+// in the order of its `order`.
+void pl_liquid_tell_touches(plumb_world *world, double dt);
+
 //---- step.c --------------------------------------------------------------------------------------
 
 // The step was refused: forces on bodies as before it.

@@ -247,7 +247,11 @@ void pl_liquid_bear_nodes(pl_liquid_grid *g, double push, double fall_x, double 
     for (uint32_t i = 0; i < g->soft_link_count; ++i) {
         const pl_liquid_soft_link *link = &g->soft_links[i];
         const pl_liquid_ends at = ends_of(g, link);
-        if (link->rest > 0 && (at.before != 0 || at.behind != 0)) {
+        const bool wet = at.before != 0 || at.behind != 0;
+        for (int k = 0; k < 3; ++k) {
+            g->nodes[link->nodes[k]].wet |= wet;
+        }
+        if (link->rest > 0 && wet) {
             const double light = (double)pl_liquid_light_at(g, link->cell, link->upright);
             const double half = -(double)link->rest * (link->upright ? fall_y : fall_x) / light / 2;
             add_to_sums(g, link, half, -half);

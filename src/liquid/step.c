@@ -18,8 +18,8 @@
 
 bool pl_want_liquid(const plumb_world *world, const char **reason)
 {
-    const bool wanted = world->liquid.count > 0;
-    *reason = wanted ? "there is liquid" : "there is no liquid";
+    const bool wanted = world->liquid.count > 0 || world->liquid.support_count > 0;
+    *reason = wanted ? "there is liquid, or was in the last step" : "there is no liquid";
     return wanted;
 }
 
@@ -132,6 +132,9 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
         !pl_liquid_recall_supports(&world->memory, liquid)) {
         return PLUMB_E_MEMORY;
     }
+    if (liquid->count == 0) { // it has gone, which those whom it touched have not been told
+        return PLUMB_OK;
+    }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
     pl_liquid_find_mixture(liquid, world->gravity);
     pl_liquid_place_solids(world, scratch, 0);
@@ -155,9 +158,13 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
     pl_liquid *liquid = &world->liquid;
     pl_liquid_note_supports(world, dt);
     pl_soft_drop_pushes(world);
-    memcpy(liquid->particles.data, liquid->scratch->moved.data,
-           liquid->count * sizeof(plumb_particle));
+    if (liquid->count > 0) {
+        memcpy(liquid->particles.data, liquid->scratch->moved.data,
+               liquid->count * sizeof(plumb_particle));
+    }
     liquid->scratch->push_count = 0;
+    liquid->index.fresh = false;
+    world->schedule_dirty |= liquid->count == 0; // the last to be told are
     return PLUMB_OK;
 }
 

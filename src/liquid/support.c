@@ -58,7 +58,8 @@ bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid)
     const size_t count = (size_t)g->body_count + g->softbody_count;
     if (!pl_buffer_reserve(memory, &scratch->order, count * sizeof(pl_keyed)) ||
         !pl_buffer_reserve(memory, &scratch->supports, count * sizeof(pl_liquid_support)) ||
-        !pl_buffer_reserve(memory, &liquid->supports, count * sizeof(pl_liquid_support))) {
+        !pl_buffer_reserve(memory, &liquid->supports, count * sizeof(pl_liquid_support)) ||
+        !pl_liquid_reserve_touches(memory, liquid, count)) {
         return false;
     }
     for (uint32_t i = 0; i < g->body_count; ++i) {
@@ -94,6 +95,7 @@ static pl_liquid_support note_body(const plumb_world *world, const pl_liquid_bod
     s.last[0] = force_of(body->held[0], (double)b->vx[row] - body->vx, body->inv_mass_x, dt);
     s.last[1] = force_of(body->held[1], (double)b->vy[row] - body->vy, body->inv_mass_y, dt);
     s.last[2] = force_of(body->held[2], (double)b->w[row] - body->w, body->inv_inertia, dt);
+    s.wet = body->wet ? PL_LIQUID_WET_BODY : PL_LIQUID_DRY;
     return s;
 }
 
@@ -109,6 +111,7 @@ static pl_liquid_support note_softbody(const plumb_world *world, const pl_liquid
     for (int k = 0; k < 3; ++k) {
         s.last[k] = force_of(body->held[k], now[k] - found[k], k < 2 ? 1 / body->mass : turns, dt);
     }
+    s.wet = pl_liquid_softbody_is_wet(g, body) ? PL_LIQUID_WET_SOFTBODY : PL_LIQUID_DRY;
     return s;
 }
 
@@ -132,6 +135,7 @@ void pl_liquid_note_supports(plumb_world *world, real dt)
         order[i] = (pl_keyed){ .key = notes[i].key, .value = i };
     }
     pl_sort_keyed(order, count);
+    pl_liquid_tell_touches(world, (double)dt);
     for (uint32_t i = 0; i < count; ++i) {
         to[i] = notes[order[i].value];
     }

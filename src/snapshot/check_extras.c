@@ -264,7 +264,8 @@ static bool check_liquid(const plumb_world *w)
     }
     for (uint32_t i = 0; i < f->support_count && sound; ++i) {
         const pl_liquid_support *all = f->supports.data;
-        sound = i == 0 || all[i - 1].key < all[i].key; // what has gone meanwhile is passed over
+        sound = (i == 0 || all[i - 1].key < all[i].key) && // what has gone meanwhile is passed over
+                all[i].wet <= PL_LIQUID_WET_SOFTBODY;
         for (int k = 0; k < 3; ++k) {
             sound &=
                 all[i].last[k] - all[i].last[k] == 0 && all[i].before[k] - all[i].before[k] == 0;

@@ -147,7 +147,8 @@
     ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
     ARRAY(plumb_liquid_phase, liquid.phases, liquid.phase_count, sizeof(plumb_liquid_phase), 0)        \
     ARRAY(pl_liquid_support, liquid.supports, liquid.support_count, sizeof(pl_liquid_support), 8)      \
-    LEFT(liquid.scratch)
+    LEFT(liquid.scratch) LEFT(liquid.contacts) LEFT(liquid.ends) LEFT(liquid.contact_count)        \
+    LEFT(liquid.end_count) LEFT(liquid.index)
 
 #define PL_STATE_AIR(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                        \
     ARRAY(plumb_air_desc, air.settings, air.settings_count, sizeof(plumb_air_desc), 0)             \

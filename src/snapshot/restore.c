@@ -200,6 +200,8 @@ static void forget_last_step(plumb_world *world)
     world->fracture.break_count = world->fracture.piece_count = 0;
     world->fracture.events_told = false;
     world->heats.gone_count = 0;
+    world->liquid.contact_count = world->liquid.end_count = 0;
+    world->liquid.index.fresh = false;
     world->quarantine.event_count = 0;
     pl_watchdog_forget(&world->watchdog);
     world->continuous.count = world->continuous.stopped_count = 0;

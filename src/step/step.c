@@ -272,6 +272,7 @@ static plumb_result run_passes(plumb_world *world, real dt)
 static plumb_result try_step(plumb_world *world, plumb_real dt)
 {
     pl_events_clear(world);
+    world->liquid.contact_count = world->liquid.end_count = 0;
     pl_sleep_recall(world);
     pl_edits_forget(world);
     if (dt == 0 && !world->rearranged) {

@@ -104,6 +104,12 @@ static void mistakes_are_told(void **state)
         { "liquid_drain(1, 2, 3, 'x')", "liquid_drain takes four numbers" },
         { "liquid{ box{1, 1} } liquid_drain(1, 2, 0, 3)", "takes a box x0 < x1" },
         { "liquid{ refill = 3 }", "refill" },
+        { "liquid{} liquid_at(1)", "liquid_at takes two numbers" },
+        { "liquid{} liquid_ray(1, 2, 3)", "liquid_ray takes four numbers" },
+        { "liquid_at(1, 2)", "liquid_at needs a liquid{}" },
+        { "liquid_ray(1, 2, 3, 4)", "liquid_ray needs a liquid{}" },
+        { "on_wet(3)", "on_wet takes a function or a table" },
+        { "on_dry{ a = 'x' }", "on_dry" },
         { "liquid(3)", "liquid" },
         { "scene{ wrap_x = 10 } liquid{ }", "wraps around" },
     };
@@ -118,6 +124,39 @@ static void mistakes_are_told(void **state)
             fail_msg("%s: %s", text, e.text);
         }
     }
+}
+
+static const char splash[] =
+    "scene{ duration = 2 }\n"
+    "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 4, at = {-1.5, 2}}, "
+    "box{1, 4, at = {1.5, 2}} }\n"
+    "liquid{ spacing = 0.1, box{2, 1, at = {0, 0.5}}, phases = { { name = 'oil', density = 800 } } "
+    "}\n"
+    "liquid{ phase = 'oil', box{2, 0.4, at = {0, 1.2}} }\n"
+    "body{ name = 'duck', box{0.5, 0.4}, density = 300, at = {0, 2.5} }\n"
+    "body{ name = 'dove', box{0.5, 0.4}, density = 300, at = {0, 20}, gravity_scale = 0 }\n"
+    "local wet, dry, push = 0, 0, 0\n"
+    "on_wet{ a = 'd*', function(b, e) wet = wet + 1; push = math.max(push, e.fy); "
+    "assert(b:name() == 'duck') end }\n"
+    "on_dry{ a = 'duck', function(b) dry = dry + 1; assert(not b:alive()) end }\n"
+    "at(1.5, function() assert(dry == 0) find('duck'):destroy() end)\n"
+    "local fill, vx, vy, what = liquid_at(0, 1.1)\n"
+    "local none, _, _, no = liquid_at(0, 3)\n"
+    "local x, y, nx, ny = liquid_ray(0.2, 3, 0.2, 0)\n"
+    "assert(math.abs(fill - 1) < 1e-4 and vx == 0 and vy == 0 and what == 'oil')\n"
+    "assert(none == 0 and no == nil and liquid_ray(0.2, 3, 0.2, 2) == nil)\n"
+    "assert(math.abs(x - 0.2) < 1e-6 and math.abs(y - 1.4) < 1e-3 and math.abs(nx) < 1e-3 and ny > "
+    "0.999)\n"
+    "expect{ 'wet once, and dry when it is gone', at = 2, test = function() "
+    "return wet == 1 and dry == 1 and push > 0, wet + dry, 2 end }\n";
+
+// What is where, and whom it touches.
+static void questions_and_handlers_tell(void **state)
+{
+    (void)state;
+    scene *s = load(splash);
+    run_and_hold(s);
+    scene_destroy(s);
 }
 
 static const char layers[] =
@@ -193,8 +232,11 @@ static void sources_and_drains(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_fill_shapes),  cmocka_unit_test(json_keeps_it),
-        cmocka_unit_test(mistakes_are_told),  cmocka_unit_test(phases_have_names),
+        cmocka_unit_test(questions_and_handlers_tell),
+        cmocka_unit_test(words_fill_shapes),
+        cmocka_unit_test(json_keeps_it),
+        cmocka_unit_test(mistakes_are_told),
+        cmocka_unit_test(phases_have_names),
         cmocka_unit_test(sources_and_drains),
     };
     return cmocka_run_group_tests_name("liquid of scenes", tests, NULL, NULL);

@@ -29,7 +29,7 @@ static const word_run runs[] = {
     { "events", "on_contact, on_end, on_enter, on_leave, edit_contact", &sc_list_contact, 1,
       PLUMB_TABLE_COUNT },
     { "events", NULL, &sc_list_hit, 1, PLUMB_TABLE_COUNT },
-    { "events", "on_shatter, on_gone", &sc_list_contact, 1, PLUMB_TABLE_COUNT },
+    { "events", "on_shatter, on_gone, on_wet, on_dry", &sc_list_contact, 1, PLUMB_TABLE_COUNT },
     { "events", "on_break, on_strain", &sc_list_break, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_blast, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_liquid, 1, PLUMB_TABLE_COUNT },

@@ -391,6 +391,8 @@ typedef enum sc_handler_kind {
     SC_ON_STRAIN,
     SC_ON_SHATTER,
     SC_ON_GONE,
+    SC_ON_WET,
+    SC_ON_DRY,
     SC_EDIT_CONTACT,
     SC_FIELD ///< `a` is the body
 } sc_handler_kind;

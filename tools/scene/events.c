@@ -1,5 +1,5 @@
 // events.c - what a script does about what happened in a step: on_contact, on_end, on_hit, on_enter,
-// on_leave, on_break, on_strain, from copies of the world's event arrays (a handler may make and destroy
+// on_leave, on_break, on_strain, on_shatter, on_gone, on_wet, on_dry, from copies of the world's event arrays (a handler may make and destroy
 // things). edit_contact is registered here; edits.c asks it. Whoever has heard on_contact or on_enter hears on_end or
 // on_leave, also of bodies that are gone by then: their objects still have name and user table (body_record.c).
 // Handlers of one kind are called in the order in which they were registered. Cost: O(events *
@@ -24,6 +24,8 @@ static const struct {
     { "on_strain", SC_ON_STRAIN, &sc_list_break },
     { "on_shatter", SC_ON_SHATTER, &sc_list_contact },
     { "on_gone", SC_ON_GONE, &sc_list_contact },
+    { "on_wet", SC_ON_WET, &sc_list_contact },
+    { "on_dry", SC_ON_DRY, &sc_list_contact },
     { "edit_contact", SC_EDIT_CONTACT, &sc_list_contact },
 };
 enum { KINDS = (int)(sizeof kinds / sizeof kinds[0]) };
@@ -43,7 +45,7 @@ const char *sc_handler_name(sc_handler_kind kind)
                                    : "at";
 }
 
-static bool has_kind(const scene *s, sc_handler_kind kind)
+bool sc_handler_any(const scene *s, sc_handler_kind kind)
 {
     for (int i = 0; i < s->handlers.count; i++) {
         if (s->handlers.items[i].kind == kind) {
@@ -246,13 +248,13 @@ static void dispatch(scene *s, sc_handler_kind kind, const pair *p, const blow *
 static void after_contacts(scene *s)
 {
     s->begins.count = s->ends.count = s->hits.count = 0;
-    if (has_kind(s, SC_ON_CONTACT)) {
+    if (sc_handler_any(s, SC_ON_CONTACT)) {
         TAKE(begins, plumb_world_begin_events);
     }
-    if (has_kind(s, SC_ON_END)) {
+    if (sc_handler_any(s, SC_ON_END)) {
         TAKE(ends, plumb_world_end_events);
     }
-    if (has_kind(s, SC_ON_HIT)) {
+    if (sc_handler_any(s, SC_ON_HIT)) {
         TAKE(hits, plumb_world_hit_events);
     }
 }
@@ -260,10 +262,10 @@ static void after_contacts(scene *s)
 static void after_sensors(scene *s)
 {
     s->enters.count = s->leaves.count = 0;
-    if (s->wants_visits || has_kind(s, SC_ON_ENTER)) {
+    if (s->wants_visits || sc_handler_any(s, SC_ON_ENTER)) {
         TAKE(enters, plumb_world_sensor_begin_events);
     }
-    if (has_kind(s, SC_ON_LEAVE)) {
+    if (sc_handler_any(s, SC_ON_LEAVE)) {
         TAKE(leaves, plumb_world_sensor_end_events);
     }
     for (int i = 0; i < s->enters.count; i++) {
@@ -291,7 +293,7 @@ static void after_breaks(scene *s)
 static void after_strains(scene *s)
 {
     s->strains.count = s->strained.count = 0;
-    if (has_kind(s, SC_ON_STRAIN)) {
+    if (sc_handler_any(s, SC_ON_STRAIN)) {
         TAKE(strains, plumb_world_joint_strain_events);
     }
     for (int i = 0; i < s->strains.count; i++) {
@@ -364,6 +366,7 @@ void sc_events_after(scene *s)
 {
     sc_shatters_take(s);
     sc_gone_take(s);
+    sc_wet_take(s);
     after_contacts(s); // all arrays first: a handler that changes the world ends them
     after_sensors(s);
     after_breaks(s);
@@ -372,6 +375,7 @@ void sc_events_after(scene *s)
     const int unheard = s->unheard.count; // of the step before
     sc_shatters_tell(s);
     sc_gone_tell(s);
+    sc_wet_tell(s);
     tell_begins(s);
     for (int i = 0; i < s->ends.count; i++) {
         const plumb_contact_end e = s->ends.items[i];

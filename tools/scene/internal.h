@@ -291,6 +291,8 @@ struct scene {
     SC_ARRAY(plumb_contact_hit) hits;
     SC_ARRAY(plumb_sensor_event) enters;
     SC_ARRAY(plumb_sensor_event) leaves;
+    SC_ARRAY(plumb_liquid_contact) wet;
+    SC_ARRAY(plumb_liquid_end) dry;
     SC_ARRAY(sc_shattered) shatters;
     SC_ARRAY(sc_gone) gone;
     SC_ARRAY(plumb_joint_break) breaks;
@@ -404,6 +406,7 @@ void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast
 void sc_open_laws(lua_State *L);       ///< attractor, zone, magnetic, mutual, orbits
 void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in, liquid_drain, liquid_change
+void sc_open_wet(lua_State *L);        ///< liquid_at, liquid_ray
 void sc_open_softbody(lua_State *L);   ///< rope, cloth, jelly, balloon, softbody
 void sc_open_air(lua_State *L);        ///< air, air_source, air_fill, air_at, air_sum
 void sc_open_waves(lua_State *L);      ///< waves, wave_at
@@ -585,10 +588,15 @@ void sc_body_refit(scene *s, sc_body *body);
 /// Those that changed in the step, and those that are gone: records follow; handlers hear of it.
 void sc_gone_take(scene *s);
 void sc_gone_tell(scene *s);
+/// Whom the liquid touches now, and touches no more; told to on_wet and on_dry.
+void sc_wet_take(scene *s);
+void sc_wet_tell(scene *s);
 /// A fresh record with its name (one is made up where it has none) in the scene's lists.
 sc_body *sc_body_add(scene *s, const sc_body_def *def);
 
 const char *sc_handler_name(sc_handler_kind kind);
+bool sc_handler_any(const scene *s, sc_handler_kind kind);
+const char *sc_liquid_phase_name(const scene *s, int phase); ///< from 0
 sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site);
 void sc_handlers_before(scene *s); ///< at, every, every_step
 void sc_events_after(scene *s);    ///< on_contact and all others that follow a step

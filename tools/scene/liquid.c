@@ -24,7 +24,7 @@ static void make_liquid(scene *s, const sc_site *site, const sc_liquid_def *d)
 // ------------------------------------------------------------------------------------ phases
 
 // The first is called as liquid{} says, or water.
-static const char *phase_name(const scene *s, int phase)
+const char *sc_liquid_phase_name(const scene *s, int phase)
 {
     const char *first = s->liquid.name[0] != 0 ? s->liquid.name : "water";
     return phase == 0 ? first : s->phases[phase - 1].name;
@@ -33,7 +33,7 @@ static const char *phase_name(const scene *s, int phase)
 static int phase_named(const scene *s, const char *name)
 {
     for (int i = 0; i <= s->phase_count; i++) {
-        if (strcmp(phase_name(s, i), name) == 0) {
+        if (strcmp(sc_liquid_phase_name(s, i), name) == 0) {
             return i;
         }
     }
@@ -45,7 +45,7 @@ static int find_phase(scene *s, const sc_site *site, const char *name)
     const int phase = phase_named(s, name);
     sc_suggest g = sc_suggest_start(name);
     for (int i = 0; phase < 0 && i <= s->phase_count; i++) {
-        sc_suggest_offer(&g, phase_name(s, i));
+        sc_suggest_offer(&g, sc_liquid_phase_name(s, i));
     }
     if (phase < 0) {
         sc_raise(s, SCENE_E_NAME, site, NULL, 0, sc_suggest_best(&g),

@@ -221,6 +221,7 @@ static int open_protected(lua_State *L)
     sc_open_body(L);
     sc_open_motion(L);
     sc_open_liquid(L);
+    sc_open_wet(L);
     sc_open_air(L);
     sc_open_waves(L);
     sc_open_heat(L);

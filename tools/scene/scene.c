@@ -216,17 +216,17 @@ void scene_destroy(scene *s)
     for (int i = 0; i < s->materials.count; i++) {
         free(s->materials.items[i]);
     }
-    void *const blocks[] = { s->bodies.items,     s->materials.items, s->made.items,
-                             s->handlers.items,   s->expects.items,   s->exacts,
-                             s->scores.items,     s->params.items,    s->sets.items,
-                             s->begins.items,     s->ends.items,      s->points,
-                             s->source,           s->joints.items,    s->broken.items,
-                             s->categories.items, s->groups.items,    s->pairs.items,
-                             s->excluded.items,   s->hits.items,      s->enters.items,
-                             s->leaves.items,     s->breaks.items,    s->strains.items,
-                             s->strained.items,   s->laws.items,      s->unheard.items,
-                             s->shatters.items,   s->sources.items,   s->softbodies.items,
-                             s->waves.items,      s->gone.items,      s->lights.items };
+    void *const blocks[] = {
+        s->bodies.items,   s->materials.items,  s->made.items,     s->handlers.items,
+        s->expects.items,  s->exacts,           s->scores.items,   s->params.items,
+        s->sets.items,     s->begins.items,     s->ends.items,     s->wet.items,
+        s->dry.items,      s->points,           s->source,         s->joints.items,
+        s->broken.items,   s->categories.items, s->groups.items,   s->pairs.items,
+        s->excluded.items, s->hits.items,       s->enters.items,   s->leaves.items,
+        s->breaks.items,   s->strains.items,    s->strained.items, s->laws.items,
+        s->unheard.items,  s->shatters.items,   s->sources.items,  s->softbodies.items,
+        s->waves.items,    s->gone.items,       s->lights.items
+    };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
         free(blocks[i]);
     }

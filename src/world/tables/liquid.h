@@ -104,13 +104,17 @@ typedef struct pl_liquid_body {
     double impulse_x, impulse_y, turn; // [N s], [N m s] since the step began
     double sum[3];                     // of pressures, in one product with the matrix
     bool moves;                        // its velocity is unknown: else it is driven
+    bool wet;                          // some cells beside it were full in this step
 } pl_liquid_body;
 
 // What held a body in the last two steps beside gravity, forces and the liquid: contacts, joints, whatever else moved it.
 typedef struct pl_liquid_support {
     uint64_t key;              // of its entity
     double last[3], before[3]; // [N], [N m]
+    uint64_t wet;              // PL_LIQUID_...: whether the liquid touched it in the last step
 } pl_liquid_support;
+
+enum { PL_LIQUID_DRY, PL_LIQUID_WET_BODY, PL_LIQUID_WET_SOFTBODY };
 
 // A part of a face that a moving body closes.
 typedef struct pl_liquid_link {
@@ -129,6 +133,7 @@ typedef struct pl_liquid_node {
     double seen[2];      // that velocity, as the faces that it closes have it
     double impulse[2];   // [N s] since the step began
     double sum[2];       // of pressures, in one product with the matrix
+    bool wet;            // as that of pl_liquid_body
 } pl_liquid_node;
 
 // Nodes of a ring, whose mean is the node behind them that its triangles meet in.
@@ -246,8 +251,17 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined, nodes, rings, softbodies, soft_links, sides;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined, nodes, rings, softbodies, soft_links, sides, touches;
 } pl_liquid_scratch;
+
+// Particles by the bins that they lie in, for questions (sample.c): made when the first one is asked after they moved.
+typedef struct pl_liquid_index {
+    pl_buffer heads; // uint32_t: first particle of each slot of a table of bins; PL_NONE: none
+    pl_buffer next;  // uint32_t: behind each particle
+    uint32_t mask;   // slots less one
+    bool fresh;
+    double low_x, low_y, high_x, high_y; // [m] box round all particles
+} pl_liquid_index;
 
 typedef struct pl_liquid {
     pl_buffer settings; // plumb_liquid_desc: one, or none
@@ -259,6 +273,9 @@ typedef struct pl_liquid {
     uint32_t support_count;
     pl_buffer supports;         // pl_liquid_support, by key
     pl_liquid_scratch *scratch; // NULL: no step has needed it yet
+    pl_buffer contacts, ends;   // plumb_liquid_contact, plumb_liquid_end: of the last step
+    uint32_t contact_count, end_count;
+    pl_liquid_index index;
 } pl_liquid;
 
 static inline plumb_particle *pl_liquid_items(const pl_liquid *liquid)
