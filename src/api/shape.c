@@ -5,6 +5,7 @@
 #include "world/destroy.h"
 #include "world/island.h"
 #include "narrow/one_way.h"
+#include "query/query.h"
 #include "world/check.h"
 #include "world/filter.h"
 #include "world/rows.h"
@@ -272,11 +273,11 @@ bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec
     if (p == PL_NONE) {
         return false;
     }
-    plumb_vec2 local = plumb_body_local_point(world, plumb_shape_body(world, shape), point);
     for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         plumb_convex convex;
-        pl_piece_convex(world, p, &convex);
-        if (plumb_convex_contains(&convex, local)) {
+        pl_query_convex(world, p, &convex); // no point slips between two pieces
+        plumb_transform frame = pl_query_frame(world, p, point);
+        if (plumb_convex_contains(&convex, plumb_transform_inv_apply(frame, point))) {
             return true;
         }
     }
