@@ -61,8 +61,12 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
         !pl_pool_reserve(&world->memory, &world->vertices, made->corners)) {
         return pl_fail_memory(world, fn);
     }
+    const uint32_t before = pl_shape_piece(world, *shape); // of a handle that is taken over
     shape->entity = pl_entity_claim(world, shape->entity, PLUMB_KIND_SHAPE, PL_NONE);
     uint32_t first = pl_pieces_add(world, row, *shape, made);
+    if (before != PL_NONE && world->pieces.body[before] == row) {
+        pl_pieces_move_behind(world, first, before);
+    }
     world->registry.slots[shape->entity.index].row = first;
     set_material(world, first, material);
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
@@ -170,6 +174,7 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
     wanted.density = pieces->own_density[first];
     wanted.filter = plumb_shape_filter(world, shape);
     wanted.filter.mask = wanted.filter.nothing ? 0 : wanted.filter.mask;
+    wanted.one_way = plumb_shape_one_way(world, shape);
     wanted.sensor = plumb_shape_is_sensor(world, shape);
     wanted.user_data = pieces->user_data[first];
     pl_made made;
