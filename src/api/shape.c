@@ -61,12 +61,8 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
         !pl_pool_reserve(&world->memory, &world->vertices, made->corners)) {
         return pl_fail_memory(world, fn);
     }
-    const uint32_t before = pl_shape_piece(world, *shape); // of a handle that is taken over
     shape->entity = pl_entity_claim(world, shape->entity, PLUMB_KIND_SHAPE, PL_NONE);
     uint32_t first = pl_pieces_add(world, row, *shape, made);
-    if (before != PL_NONE && world->pieces.body[before] == row) {
-        pl_pieces_move_behind(world, first, before);
-    }
     world->registry.slots[shape->entity.index].row = first;
     set_material(world, first, material);
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
@@ -181,6 +177,7 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
     PL_TRY(pl_shape_make(world, __func__, &wanted, &made));
     // The new pieces take the handle over while the old ones are there: only then can nothing fail.
     PL_TRY(pl_shape_insert(world, __func__, row, &wanted, &made, &shape));
+    pl_pieces_move_behind(world, pl_shape_piece(world, shape), first);
     pl_pieces_remove(world, first);
     pl_mass_revise(world, row);
     pl_sleep_disturb(world, row);
