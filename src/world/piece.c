@@ -259,10 +259,17 @@ static void free_slot(plumb_world *world, uint32_t slot)
 void pl_pieces_move_behind(plumb_world *world, uint32_t first, uint32_t other)
 {
     pl_pieces *pieces = &world->pieces;
-    unlink_from_body(world, first);
+    uint32_t *head = &world->bodies.first_piece[pieces->body[first]];
     const uint32_t last = last_of_shape(world, first), place = last_of_shape(world, other);
-    pieces->next_in_body[last] = pieces->next_in_body[place];
-    pieces->next_in_body[place] = first;
+    unlink_from_body(world, first);
+    uint32_t at = *head;
+    while (at != PL_NONE &&
+           at != place) { // images may be forged: it may be in no list, or in another
+        at = pieces->next_in_body[at];
+    }
+    uint32_t *link = at == PL_NONE ? head : &pieces->next_in_body[place];
+    pieces->next_in_body[last] = *link;
+    *link = first;
 }
 
 void pl_pieces_remove(plumb_world *world, uint32_t first)
