@@ -96,7 +96,7 @@ PLUMB_API int plumb_world_cast_all(plumb_world *world, const plumb_cast *cast,
 PLUMB_API int plumb_world_cast_batch(plumb_world *world, const plumb_cast *casts, int count,
                                      const plumb_query_filter *filter, plumb_cast_hit *hits);
 
-/// Shapes whose tight box overlaps the box, in slot order: writes up to `capacity`, returns how many.
+/// Shapes of which the tight box of some convex piece overlaps the box, in slot order: writes up to `capacity`, returns how many.
 /// Any finite box is answered; one that is a period long or longer holds all there is along that axis.
 /// -1 on error.
 PLUMB_API int plumb_world_overlap_aabb(plumb_world *world, plumb_aabb box,

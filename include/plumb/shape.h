@@ -40,7 +40,9 @@ typedef struct plumb_filter {
 
 /// A shape that things pass through in one direction and that holds them against it: a platform to be
 /// jumped on from below. {0}: solid from all sides. What comes from the side that lets pass goes through
-/// and, once it is out, can stand on it; nothing is pushed out while it is inside.
+/// and, once it is out, can stand on it; nothing is pushed out while it is inside. That is of bodies as a whole: while a part of
+/// one is on its way through, the others are not caught either, nor by one-way shapes or pieces that touch (within
+/// 1 mm) what it is in: links of a chain, tiles of a row. What that part is on top of holds, as treads of stairs do.
 typedef struct plumb_one_way {
     plumb_vec2 direction; ///< in the body's frame, of any length, in which things pass: {0, 1} is upwards
     plumb_real angle;     ///< [rad] 0..pi/2: surfaces whose outward normal is within it of `direction` hold,
@@ -89,7 +91,8 @@ PLUMB_API plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape s
 /// Mass, centre in the body's frame and inertia about that centre, at the density in force.
 PLUMB_API plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape shape);
 /// Gives the shape another form: kind, points and measures of `desc`. Its handle, body, material, density,
-/// filter, being a sensor and user data stay, whatever `desc` says of them; the body's mass is revised.
+/// filter, one-way property, being a sensor and user data stay, whatever `desc` says of them, and so does its place among the
+/// shapes of the body, whose mass is revised.
 /// What it touched is found anew: touches that go on end and begin. Errors: as of plumb_shape_create.
 PLUMB_API plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
                                                 const plumb_shape_desc *desc);
@@ -106,7 +109,7 @@ PLUMB_API bool plumb_filters_meet(plumb_filter a, plumb_filter b);
 
 /// The one-way property in force, its direction a unit vector; {0} if it has none, or for a dead handle.
 PLUMB_API plumb_one_way plumb_shape_one_way(const plumb_world *world, plumb_shape shape);
-/// Changes it; what overlaps the shape by more than 2 cm at the next step passes. Errors: E_HANDLE, E_RANGE,
+/// Changes it; what overlaps the shape at the next step by more than 2 cm, and more than it came in the last, passes. Errors: E_HANDLE, E_RANGE,
 /// E_NOT_FINITE.
 PLUMB_API plumb_result plumb_shape_set_one_way(plumb_world *world, plumb_shape shape,
                                                plumb_one_way one_way);

@@ -360,6 +360,7 @@ static void divide_shape(const division *d, const shape_run *run)
         }
     }
     if (child_has(world, run, d->keeper)) {
+        pl_pieces_move_behind(world, pl_shape_piece(world, shape), run->piece);
         pl_pieces_remove(world, run->piece); // the new pieces have the handle
     } else {
         pl_destroy_entity(world, shape.entity);

@@ -5,6 +5,7 @@
 #include "world/destroy.h"
 #include "world/island.h"
 #include "narrow/one_way.h"
+#include "query/query.h"
 #include "world/check.h"
 #include "world/filter.h"
 #include "world/rows.h"
@@ -169,12 +170,14 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
     wanted.density = pieces->own_density[first];
     wanted.filter = plumb_shape_filter(world, shape);
     wanted.filter.mask = wanted.filter.nothing ? 0 : wanted.filter.mask;
+    wanted.one_way = plumb_shape_one_way(world, shape);
     wanted.sensor = plumb_shape_is_sensor(world, shape);
     wanted.user_data = pieces->user_data[first];
     pl_made made;
     PL_TRY(pl_shape_make(world, __func__, &wanted, &made));
     // The new pieces take the handle over while the old ones are there: only then can nothing fail.
     PL_TRY(pl_shape_insert(world, __func__, row, &wanted, &made, &shape));
+    pl_pieces_move_behind(world, pl_shape_piece(world, shape), first);
     pl_pieces_remove(world, first);
     pl_mass_revise(world, row);
     pl_sleep_disturb(world, row);
@@ -272,11 +275,11 @@ bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec
     if (p == PL_NONE) {
         return false;
     }
-    plumb_vec2 local = plumb_body_local_point(world, plumb_shape_body(world, shape), point);
     for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         plumb_convex convex;
-        pl_piece_convex(world, p, &convex);
-        if (plumb_convex_contains(&convex, local)) {
+        pl_query_convex(world, p, &convex); // no point slips between two pieces
+        plumb_transform frame = pl_query_frame(world, p, point);
+        if (plumb_convex_contains(&convex, plumb_transform_inv_apply(frame, point))) {
             return true;
         }
     }

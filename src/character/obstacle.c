@@ -2,14 +2,16 @@
 //
 // Static and dynamic bodies stand where they are; kinematic ones, and whatever the character stands
 // on, where they will be at the end of the step. Other characters that have not moved yet stand
-// still. A one-way piece holds if it does so where both are at the start of the step.
+// still. A one-way piece holds if it does so where both are at the start of the step, or lies below.
 //
 // Reads: grids, pieces, poses, velocities. Writes: scratch of world->characters.
 // Cost: cells near the character, O(corners) an obstacle.
 #include "world/body_settings.h"
 #include "broad/images.h"
+#include "broad/pairs.h"
 #include "character/walker.h"
 #include "math/trig.h"
+#include "narrow/one_way.h"
 #include "query/query.h"
 #include "world/check.h"
 #include "world/filter.h"
@@ -23,6 +25,7 @@
 #define SLOPE_BAND        1e-6               // ground just as steep as allowed is not too steep
 #define SAME              1e-9               // [m]
 #define SKIN_PART         0.02               // [-] of the half width
+#define NEIGHBOURS        1e-3               // [m] see narrow/one_way.c
 
 //---- the walker ---------------------------------------------------------------------------------
 
@@ -175,15 +178,36 @@ void pl_obstacle_velocity(const pl_obstacle *o, double x, double y, double *vx, 
     *vy = o->vy + o->w * (x - o->cx);
 }
 
-static bool is_under_way(const pl_character *c, plumb_shape shape, bool *dropping)
+// Of a dynamic one its contacts know.
+static bool is_under_way(const pl_walker *m, uint32_t piece, bool *dropping)
 {
+    const pl_character *c = m->c;
+    if (m->world->bodies.type[m->row] == PLUMB_DYNAMIC) {
+        const pl_pair *pair = pl_pairs_find_one(m->world, piece, m->piece);
+        *dropping = pair != NULL && (pair->flags & PL_PAIR_DROPPING) != 0;
+        return pair != NULL && pl_pair_passes(pair);
+    }
     for (int i = 0; i < c->passing_count; ++i) {
-        if (plumb_same(c->passing[i].shape, shape)) {
+        if (plumb_same(c->passing[i].shape, m->world->pieces.shape[piece])) {
             *dropping = c->passing[i].dropping != 0;
             return true;
         }
     }
     return false;
+}
+
+// [m] by how much all of the character lies beyond all of a piece, where both are at the start of the step, in the direction in
+// which that lets pass.
+static double height_above(const pl_walker *m, const pl_round *fixed, double dx, double dy)
+{
+    double top = -HUGE_VAL, foot = HUGE_VAL;
+    for (int i = 0; i < fixed->count; ++i) {
+        top = pl_most(top, dx * fixed->x[i] + dy * fixed->y[i]);
+    }
+    for (int i = 0; i < m->shape.count; ++i) {
+        foot = pl_least(foot, dx * m->shape.x[i] + dy * m->shape.y[i]);
+    }
+    return foot - m->shape.radius - (top + fixed->radius);
 }
 
 static void judge_one_way(const pl_walker *m, pl_obstacle *o, const plumb_convex *convex,
@@ -196,13 +220,37 @@ static void judge_one_way(const pl_walker *m, pl_obstacle *o, const plumb_convex
     pl_sum_make(&fixed, &m->shape, &sum);
     pl_sum_near near = pl_sum_nearest(&sum, 0, 0);
     plumb_vec2 normal = plumb_v2((real)near.nx, (real)near.ny);
-    bool dropping;
-    o->holds = !is_under_way(m->c, p->shape[o->piece], &dropping) &&
-               pl_one_way_blocks(m->world, o->piece, normal, (real)near.distance);
     plumb_transform end = pl_row_end_pose(m->world, o->row, m->step);
     plumb_vec2 d = plumb_rot_apply(end.q, plumb_v2(p->one_way_x[o->piece], p->one_way_y[o->piece]));
     o->dx = (double)d.x, o->dy = (double)d.y;
     o->cosine = (double)p->one_way_cos[o->piece];
+    d = plumb_rot_apply(now.q, plumb_v2(p->one_way_x[o->piece], p->one_way_y[o->piece]));
+    const double height = height_above(m, &fixed, (double)d.x, (double)d.y);
+    o->is_below = height >= 0;
+    o->under_way = is_under_way(m, o->piece, &o->drops);
+    // What it is beside now may be under it before the step is over.
+    o->holds =
+        !o->under_way && (height >= -(double)PL_ONE_WAY_FOUND ||
+                          pl_one_way_blocks(m->world, o->piece, normal, (real)near.distance));
+}
+
+// One-way pieces that touch are one to what is under way through one of them: the next tile of a row does not hold what another
+// lets pass, unless that lies beyond it. Who drops through one drops through all.
+static void join_neighbours(const pl_walker *m)
+{
+    for (int i = 0; i < m->obstacle_count; ++i) {
+        pl_obstacle *o = &m->obstacles[i];
+        pl_round grown = o->fixed;
+        grown.radius += NEIGHBOURS;
+        for (int k = 0; o->is_one_way && o->holds && k < m->obstacle_count; ++k) {
+            const pl_obstacle *other = &m->obstacles[k];
+            if (other->is_one_way && other->under_way && (other->drops || !o->is_below) &&
+                pl_rounds_overlap(&grown, &other->fixed)) {
+                o->holds = false;
+                o->drops = other->drops;
+            }
+        }
+    }
 }
 
 static void make_obstacle(const pl_walker *m, uint32_t piece, pl_obstacle *o)
@@ -282,6 +330,7 @@ bool pl_walker_look(pl_walker *m, double reach)
     for (uint32_t i = 0; i < s.count; ++i) {
         make_obstacle(m, near[i], &m->obstacles[i]);
     }
+    join_neighbours(m);
     return true;
 }
 
@@ -290,9 +339,8 @@ bool pl_walker_look(pl_walker *m, double reach)
 // It goes on dropping until it is inside, or no longer above.
 static bool still_drops(const pl_walker *m, const pl_obstacle *o, const pl_sum_near *near)
 {
-    bool dropping = false;
-    return is_under_way(m->c, m->world->pieces.shape[o->piece], &dropping) && dropping &&
-           near->distance < 3 * m->skin && near->nx * o->dx + near->ny * o->dy >= o->cosine;
+    return o->drops && near->distance < 3 * m->skin &&
+           near->nx * o->dx + near->ny * o->dy >= o->cosine;
 }
 
 void pl_walker_note_passing(pl_walker *m)

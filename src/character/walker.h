@@ -19,6 +19,8 @@ typedef struct pl_obstacle {
     double travel;    // [m] farthest that a point of it near the character moves in the step
     bool is_dynamic, is_ground;
     bool is_one_way, holds; // one-way: whether it holds the character in this step
+    bool is_below;          // whether all of it lies below the character, as it lets pass
+    bool under_way, drops;  // whether the character is on its way through it; because it asked to
     double dx, dy, cosine;  // direction in which it lets pass, and the angle
 } pl_obstacle;
 

@@ -179,6 +179,21 @@ static bool ray_polygon(const ray *r, const plumb_convex *shape, plumb_real *t, 
     return true;
 }
 
+// A ray along a line meets its nearer end, where rounding lets it go by that one and find the other.
+static void meet_nearer_end(const ray *r, const plumb_convex *line, plumb_real *t)
+{
+    for (int i = 0; i < 2; i++) {
+        plumb_vec2 to = plumb_vec2_sub(line->points[i], r->origin);
+        plumb_real along = plumb_vec2_dot(to, r->direction);
+        plumb_real reach =
+            plumb_abs(r->origin.x) + plumb_abs(r->origin.y) + plumb_abs(to.x) + plumb_abs(to.y);
+        if (along >= 0 && along < *t &&
+            plumb_abs(plumb_vec2_cross(to, r->direction)) <= 8 * PLUMB_REAL_EPSILON * reach) {
+            *t = along;
+        }
+    }
+}
+
 // First meeting with the moved edges and the circles about the core points.
 static bool ray_rounded(const ray *r, const plumb_convex *shape, plumb_real *t, plumb_vec2 *normal)
 {
@@ -190,6 +205,9 @@ static bool ray_rounded(const ray *r, const plumb_convex *shape, plumb_real *t, 
         if (shape->count >= 2 && ray_edge(r, shape, i, t, normal)) {
             met = true;
         }
+    }
+    if (met && shape->count == 2 && shape->radius == 0) {
+        meet_nearer_end(r, shape, t);
     }
     return met;
 }

@@ -2,6 +2,7 @@
 #ifndef PL_ONE_WAY_H
 #define PL_ONE_WAY_H
 
+#include "plumb/base.h"
 #include "world/tables/pair.h"
 
 // The pair is under way through a one-way piece: nothing may stop it until it is out.
@@ -11,8 +12,8 @@ static inline bool pl_pair_passes(const pl_pair *pair)
 }
 
 bool pl_one_way_wanted(const plumb_world *world, const char **reason);
-// Takes out the manifolds of pairs that pass, and keeps up the pairs' flags.
-void pl_one_way_run(plumb_world *world);
+// Takes out the manifolds of pairs that pass, and keeps up the pairs' flags, for a step of dt [s].
+void pl_one_way_run(plumb_world *world, plumb_real dt);
 
 // Writes a checked property to all pieces of a shape and keeps up the counter.
 void pl_one_way_apply(plumb_world *world, uint32_t first, const plumb_one_way *one_way);

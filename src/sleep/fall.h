@@ -62,10 +62,11 @@ bool pl_sleep_soft_follow(plumb_world *world, plumb_real dt, uint32_t first);
 // Islands are marked that soft bodies which are awake touch. False when out of memory.
 bool pl_sleep_soft_mark(plumb_world *world, plumb_real dt, void (*mark)(pl_sleep *, uint32_t));
 
-// A contact of the last narrow phase, or one whose end event is still to come.
+// A contact of the last narrow phase, or one whose end event is still to come, or what is under way through a one-way shape.
 static inline bool pl_is_linked(const pl_pair *pair)
 {
-    return pair->manifold != PL_NONE || (pair->flags & PL_PAIR_TOUCHING) != 0;
+    return pair->manifold != PL_NONE ||
+           (pair->flags & (PL_PAIR_TOUCHING | PL_PAIR_PASSING | PL_PAIR_DROPPING)) != 0;
 }
 
 // Body rows of a pair; false when one of its pieces has gone, changed or been disabled since the pair was made.

@@ -207,6 +207,10 @@ uint64_t pl_world_digest(const plumb_world *world, bool values)
     add_characters(&digest, world);
     add_holds(&digest, world);
     pl_commands_digest(world, &digest);
+    if (world->one_way_pieces >
+        0) { // where bodies came from decides what holds them (narrow/one_way.c)
+        pl_digest_add(&digest, &world->last_dt, sizeof world->last_dt);
+    }
     for (uint32_t i = 0; i < world->components.count; ++i) {
         add_component(&digest, &world->components.items[i]);
     }

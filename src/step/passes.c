@@ -58,7 +58,7 @@ static bool narrow(plumb_world *world, plumb_real dt)
         return false;
     }
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
-        pl_one_way_run(world);
+        pl_one_way_run(world, dt);
     }
     // Each tile of the ground keeps a contact of its own where systems look at contacts.
     world->internal_edges.apart = pl_system_sees_contacts(world);

@@ -258,5 +258,6 @@ bool pl_one_way_blocks(const plumb_world *world, uint32_t piece, plumb_vec2 out,
     const pl_pose *pose = &pl_poses(world)[p->body[piece]];
     plumb_vec2 d = plumb_rot_apply((plumb_rot){ pose->c, pose->s },
                                    plumb_v2(p->one_way_x[piece], p->one_way_y[piece]));
-    return separation >= -PL_ONE_WAY_FOUND && plumb_vec2_dot(out, d) >= p->one_way_cos[piece];
+    return separation >= -PL_ONE_WAY_FOUND && (out.x != 0 || out.y != 0) &&
+           plumb_vec2_dot(out, d) >= p->one_way_cos[piece];
 }

@@ -212,14 +212,19 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
     return first;
 }
 
+static uint32_t last_of_shape(const plumb_world *world, uint32_t piece)
+{
+    while (world->pieces.next_in_shape[piece] != PL_NONE) {
+        piece = world->pieces.next_in_shape[piece];
+    }
+    return piece;
+}
+
 // The pieces of a shape follow one another in the list of the body: they come out as one run.
 static void unlink_from_body(plumb_world *world, uint32_t first)
 {
     pl_pieces *pieces = &world->pieces;
-    uint32_t last = first;
-    while (pieces->next_in_shape[last] != PL_NONE) {
-        last = pieces->next_in_shape[last];
-    }
+    const uint32_t last = last_of_shape(world, first);
     uint32_t *link = &world->bodies.first_piece[pieces->body[first]];
     while (*link != first) {
         link = &pieces->next_in_body[*link];
@@ -249,6 +254,22 @@ static void free_slot(plumb_world *world, uint32_t slot)
     pieces->vertex_count[slot] = 0;
     pieces->next_in_shape[slot] = pieces->free_head;
     pieces->free_head = slot;
+}
+
+void pl_pieces_move_behind(plumb_world *world, uint32_t first, uint32_t other)
+{
+    pl_pieces *pieces = &world->pieces;
+    uint32_t *head = &world->bodies.first_piece[pieces->body[first]];
+    const uint32_t last = last_of_shape(world, first), place = last_of_shape(world, other);
+    unlink_from_body(world, first);
+    uint32_t at = *head;
+    while (at != PL_NONE &&
+           at != place) { // images may be forged: it may be in no list, or in another
+        at = pieces->next_in_body[at];
+    }
+    uint32_t *link = at == PL_NONE ? head : &pieces->next_in_body[place];
+    pieces->next_in_body[last] = *link;
+    *link = first;
 }
 
 void pl_pieces_remove(plumb_world *world, uint32_t first)

@@ -70,6 +70,60 @@ static void pieces_and_slots(void **state)
     assert_false(scheduled(f->world));
 }
 
+// A shape that gets another form lets pass as before, whatever the descriptor says; so do parts and what is merged.
+static void another_form_keeps_it(void **state)
+{
+    fixture *f = *state;
+    const plumb_vec2 points[] = { { -2, 0 }, { 2, 0 }, { 2, 1 }, { -2, 1 } };
+    const plumb_shape_desc forms[] = {
+        { .kind = PLUMB_BOX, .half = { 2, 1 } },
+        { .kind = PLUMB_CIRCLE, .radius = 2, .one_way = { { 1, 0 }, 0 } },
+        { .kind = PLUMB_CHAIN, .points = points, .count = 4 },
+        { .kind = PLUMB_OUTLINE, .points = points, .count = 4, .one_way = { { 1, 0 }, 1 } },
+        { .kind = PLUMB_SEGMENT, .points = points, .count = 2 },
+        { .kind = PLUMB_POLYGON, .points = points, .count = 4 },
+        { .kind = PLUMB_CAPSULE, .points = points, .count = 2, .radius = 1 },
+    };
+    plumb_body body = plumb_body_create(f->world, &(plumb_body_desc){ .type = PLUMB_STATIC });
+    plumb_shape_desc desc = forms[0];
+    desc.one_way = (plumb_one_way){ { 0, 1 }, R(0.75) };
+    plumb_shape shape = plumb_shape_create(f->world, body, &desc);
+    for (size_t i = 0; i < 3 * sizeof forms / sizeof forms[0]; ++i) {
+        desc = forms[3 * i % (sizeof forms / sizeof forms[0])];
+        assert_int_equal(plumb_shape_set_geometry(f->world, shape, &desc), PLUMB_OK);
+        plumb_one_way o = plumb_shape_one_way(f->world, shape);
+        assert_true(o.direction.x == 0 && o.direction.y == 1 && o.angle == R(0.75));
+    }
+    assert_int_equal(plumb_shape_set_one_way(f->world, shape, (plumb_one_way){ 0 }), PLUMB_OK);
+    assert_int_equal(plumb_shape_set_geometry(f->world, shape, &forms[1]), PLUMB_OK);
+    assert_true(plumb_shape_one_way(f->world, shape).direction.x == 0);
+}
+
+// Rays and casts that start inside pass, at the largest angle too, where they would be held from beside.
+static void what_starts_inside_passes(void **state)
+{
+    fixture *f = *state;
+    const plumb_query_filter filter = { .one_way = true };
+    plumb_body body = plumb_body_create(
+        f->world, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 50, 0 } });
+    plumb_shape shape = plumb_shape_create(
+        f->world, body, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, 1 } });
+    plumb_convex ball;
+    assert_int_equal(plumb_convex_circle((plumb_vec2){ 0, 0 }, R(0.25), &ball), PLUMB_OK);
+    for (int i = 0; i <= 8; ++i) {
+        const plumb_one_way o = { { 0, 1 }, i == 8 ? R(1.5707964) : R(0.1 + 0.2 * i) };
+        assert_int_equal(plumb_shape_set_one_way(f->world, shape, o), PLUMB_OK);
+        for (int k = 0; k < 12; ++k) {
+            const plumb_vec2 way = plumb_vec2_polar(9, R(0.5 * k)), from = { R(50.5), R(0.125) };
+            const plumb_cast cast = { &ball, { from, { 1, 0 } }, way };
+            plumb_ray_hit hit;
+            assert_true(plumb_world_ray(f->world, from, plumb_vec2_add(from, way), NULL, &hit));
+            assert_false(plumb_world_ray_any(f->world, from, plumb_vec2_add(from, way), &filter));
+            assert_false(plumb_world_cast_any(f->world, &cast, &filter));
+        }
+    }
+}
+
 static plumb_result make(fixture *f, plumb_one_way one_way)
 {
     plumb_shape_desc desc = { .kind = PLUMB_CIRCLE, .radius = 1, .one_way = one_way };
@@ -167,6 +221,7 @@ int main(void)
         API_TEST(property_is_kept),          API_TEST(costs_nothing_where_unused),
         API_TEST(pieces_and_slots),          API_TEST(wrong_values_are_refused),
         API_TEST(wrong_handles_are_refused), API_TEST(requests_do_not_outlive_a_step),
+        API_TEST(another_form_keeps_it),     API_TEST(what_starts_inside_passes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -395,6 +395,43 @@ static void points_within_the_hull_of_a_polygon_are_warned_of(void **state)
     assert_int_equal(f->errors, 0);
 }
 
+static void check_order(const fixture *f, plumb_body body, const plumb_shape *made, int count)
+{
+    plumb_shape told[8];
+    assert_int_equal(plumb_body_shapes(f->world, body, told, 8), count);
+    assert_memory_equal(told, made, (size_t)count * sizeof *made);
+}
+
+// Shapes are told in the order in which they were made, whatever form they get, and what is cut off them.
+static void other_forms_keep_the_order(void **state)
+{
+    fixture *f = *state;
+    const plumb_shape_desc forms[] = { { .kind = PLUMB_BOX, .half = { 2, 1 } },
+                                       { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 },
+                                       { .kind = PLUMB_CIRCLE, .radius = 1 } };
+    plumb_body body = plumb_body_create(f->world, &(plumb_body_desc){ .position = { 50, 0 } });
+    plumb_shape made[5];
+    for (int i = 0; i < 5; ++i) {
+        made[i] = plumb_shape_create(f->world, body, &forms[i % 3]);
+    }
+    for (int i = 0; i < 40; ++i) {
+        const plumb_shape shape = made[7 * i % 5];
+        assert_int_equal(plumb_shape_set_geometry(f->world, shape, &forms[5 * i % 3]), PLUMB_OK);
+        check_order(f, body, made, 5);
+    }
+    assert_int_equal(plumb_body_scale(f->world, body, 2), PLUMB_OK);
+    check_order(f, body, made, 5);
+    // Those that the line misses stay as they are, the others are made anew.
+    const plumb_shape_desc small = { .kind = PLUMB_BOX, .half = { 1, R(0.125) } };
+    for (int i = 0; i < 5; i += 2) {
+        assert_int_equal(plumb_shape_set_geometry(f->world, made[i], &small), PLUMB_OK);
+    }
+    const plumb_vec2 at = { 50, R(-0.5) };
+    plumb_body parts[8];
+    assert_true(plumb_body_cut(f->world, body, at, plumb_v2(1, 0), parts, 8) > 0);
+    check_order(f, body, made, 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -408,6 +445,7 @@ int main(void)
         API_TEST(shapes_of_the_world_are_listed),
         API_TEST(bad_handles_are_answered_with_nothing),
         API_TEST(points_are_copied),
+        API_TEST(other_forms_keep_the_order),
         API_TEST(materials_are_read_and_changed),
         API_TEST(a_destroyed_material_leaves_the_others_as_they_were),
     };

@@ -216,6 +216,14 @@ static inline void check_point(plumb_world *world, plumb_vec2 point, const plumb
     }
     int count = plumb_world_overlap_point(world, point, f, shapes, 8 * MOST);
     check_set(&expected, shapes, count);
+    for (uint32_t p = 0; p < world->pieces.table.count; ++p) {
+        if (seen(world, p, f)) { // a shape alone tells the same
+            const plumb_shape shape = world->pieces.shape[p];
+            const bool is_in = bsearch(&shape, expected.items, (size_t)expected.count, sizeof shape,
+                                       compare_shapes) != NULL;
+            assert_int_equal(plumb_shape_contains(world, shape, point), is_in);
+        }
+    }
 }
 
 static inline int check_aabb(plumb_world *world, plumb_aabb box, const plumb_query_filter *f)

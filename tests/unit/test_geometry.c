@@ -368,6 +368,29 @@ static void rays_meet_known_places(void **state)
     assert_near(hit.normal.x, -sqrt(0.5), 8 * EPS);
 }
 
+// Rounding may let a ray along a line miss it, or find either end: what it meets is the nearer one.
+static void rays_along_lines_meet_the_nearer_end(void **state)
+{
+    (void)state;
+    int met = 0;
+    for (int i = 0; i < 20000; ++i) {
+        plumb_convex line;
+        plumb_convex_hit hit;
+        const plumb_vec2 a = random_point(9), b = random_point(9);
+        if (plumb_convex_segment(a, b, &line) != PLUMB_OK) {
+            continue;
+        }
+        const plumb_real beyond = R(uniform(1.5, 4)), short_of = R(uniform(0, 0.5));
+        const plumb_vec2 from = plumb_vec2_lerp(a, b, beyond);
+        const plumb_vec2 to = plumb_vec2_lerp(a, b, i % 2 ? short_of : 0);
+        if (plumb_convex_ray(&line, from, plumb_vec2_sub(to, from), &hit)) {
+            assert_near(plumb_vec2_distance(hit.point, b), 0, ROUNDED(1e-4));
+            ++met;
+        }
+    }
+    assert_true(met > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -382,6 +405,7 @@ int main(void)
         cmocka_unit_test_setup(nearest_points_match_brute_force, seed),
         cmocka_unit_test_setup(rays_stop_at_the_surface, seed),
         cmocka_unit_test_setup(rays_meet_known_places, seed),
+        cmocka_unit_test_setup(rays_along_lines_meet_the_nearer_end, seed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

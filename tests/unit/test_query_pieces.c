@@ -54,6 +54,45 @@ static void test_outline(void **state)
     plumb_world_destroy(world);
 }
 
+// A point on a cut is in the shape, whichever of its pieces rounding leaves it out of.
+static void test_points_on_cuts(void **state)
+{
+    (void)state;
+    plumb_world *world = make_world(4);
+    int count = 0;
+    for (int k = 0; k < 300; ++k) {
+        plumb_body body = add_body(world, PLUMB_STATIC, place(30), uniform(-4, 4));
+        plumb_vec2 points[14];
+        const int corners = (int)uniform(5, 14.999);
+        for (int i = 0; i < corners; ++i) {
+            points[i] =
+                plumb_vec2_polar(R(uniform(0.3, 1.2)), R(6.28 * (i + uniform(0, 0.5)) / corners));
+        }
+        const plumb_shape_desc desc = { .kind = PLUMB_OUTLINE, .points = points, .count = corners };
+        plumb_shape shape = plumb_shape_create(world, body, &desc), found;
+        assert_false(plumb_is_null(shape));
+        for (int i = 0; i < plumb_shape_piece_count(world, shape); ++i) {
+            plumb_convex piece;
+            uint32_t cuts;
+            assert_int_equal(plumb_shape_piece(world, shape, i, &piece, &cuts), PLUMB_OK);
+            for (int e = 0; e < 8 * piece.count; ++e) {
+                const plumb_vec2 a = piece.points[e / 8];
+                const plumb_vec2 b = piece.points[(e / 8 + 1) % piece.count];
+                if ((cuts >> (e / 8) & 1u) != 0) {
+                    const plumb_vec2 at = plumb_body_world_point(
+                        world, body, plumb_vec2_lerp(a, b, R(uniform(0.1, 0.9))));
+                    assert_true(plumb_shape_contains(world, shape, at));
+                    assert_int_equal(plumb_world_overlap_point(world, at, NULL, &found, 1), 1);
+                    ++count;
+                }
+            }
+        }
+        assert_int_equal(plumb_body_destroy(world, body), PLUMB_OK);
+    }
+    assert_true(count > 1000);
+    plumb_world_destroy(world);
+}
+
 // Points and rays on the inner cuts themselves, where rounding decides which piece they are in.
 static void test_inner_cuts(void **state)
 {
@@ -149,9 +188,8 @@ static void test_far_away(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_outline),
-        cmocka_unit_test(test_inner_cuts),
-        cmocka_unit_test(test_chain),
+        cmocka_unit_test(test_outline),        cmocka_unit_test(test_inner_cuts),
+        cmocka_unit_test(test_points_on_cuts), cmocka_unit_test(test_chain),
         cmocka_unit_test(test_far_away),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

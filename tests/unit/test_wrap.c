@@ -223,6 +223,35 @@ static void overlaps_go_over_the_edge(void **state)
     each_way(check_overlap);
 }
 
+// Whatever the image, and however far from the origin of its body a shape lies.
+static void shapes_contain_points_over_the_edge(void **state)
+{
+    (void)state;
+    plumb_world *world = NULL;
+    const plumb_world_desc desc = { .wrap_x = R(PERIOD_X), .wrap_y = R(PERIOD_Y) };
+    assert_int_equal(plumb_world_create(&desc, &world), PLUMB_OK);
+    uint32_t seed = 7;
+    int met = 0;
+    for (int i = 0; i < 400; ++i) {
+        plumb_body body = plumb_body_create(
+            world, &(plumb_body_desc){
+                       .type = PLUMB_STATIC, .position = some_point(&seed), .angle = R(i) });
+        const plumb_shape_desc ball = { .kind = PLUMB_CIRCLE,
+                                        .radius = R(0.5),
+                                        .center = { R(sim_uniform(&seed, -3, 3) * PERIOD_X),
+                                                    R(sim_uniform(&seed, -3, 3) * PERIOD_Y) } };
+        plumb_shape shape = plumb_shape_create(world, body, &ball), found;
+        plumb_vec2 at = plumb_body_world_point(world, body, ball.center);
+        at.x += R(sim_uniform(&seed, -0.6, 0.6)), at.y += R(sim_uniform(&seed, -0.6, 0.6));
+        const int count = plumb_world_overlap_point(world, at, NULL, &found, 1);
+        assert_int_equal(plumb_shape_contains(world, shape, at), count == 1);
+        met += count;
+        assert_int_equal(plumb_body_destroy(world, body), PLUMB_OK);
+    }
+    assert_true(met > 100);
+    plumb_world_destroy(world);
+}
+
 static void check_nearest(pair_of_worlds *p, uint32_t *seed)
 {
     plumb_vec2 at = some_point(seed);
@@ -353,6 +382,7 @@ int main(void)
         cmocka_unit_test(rays_go_over_the_edge),
         cmocka_unit_test(casts_go_over_the_edge),
         cmocka_unit_test(overlaps_go_over_the_edge),
+        cmocka_unit_test(shapes_contain_points_over_the_edge),
         cmocka_unit_test(nearest_goes_over_the_edge),
         cmocka_unit_test(every_pair_over_the_edge_once),
         cmocka_unit_test(points_are_brought_back),

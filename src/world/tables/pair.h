@@ -25,6 +25,7 @@ typedef struct pl_pair {
 #define PL_PAIR_HELD     64u    // of a one-way piece: it holds
 #define PL_PAIR_PASSING  128u   // it is under way through it
 #define PL_PAIR_DROPPING 16384u // it was held and asked to drop through
+#define PL_PAIR_ONE_WAY  (PL_PAIR_HELD | PL_PAIR_PASSING | PL_PAIR_DROPPING)
 #define PL_PAIR_AHEAD                                                                              \
     32768u // its manifold is that of a later moment; only within the narrow phase (narrow/ahead.h)
 #define PL_PAIR_COVERED                                                                            \
