@@ -100,7 +100,7 @@ static bool are_sound(const plumb_world *world, uint64_t parts)
     return true;
 }
 
-static const char *read(pl_buffer *list, uint64_t count, size_t size, const char *from)
+static const char *read_list(pl_buffer *list, uint64_t count, size_t size, const char *from)
 {
     if (count > 0) {
         memcpy(list->data, from, (size_t)count * size);
@@ -130,10 +130,10 @@ plumb_result pl_told_play(plumb_world *world, const char *from, size_t bytes)
     }
     from += sizeof h;
     if (h.gone > 0) {
-        from = read(&pl_heat_step_of(heats)->gone, h.gone, sizeof(plumb_body_gone), from);
+        from = read_list(&pl_heat_step_of(heats)->gone, h.gone, sizeof(plumb_body_gone), from);
     }
-    from = read(&f->breaks, h.breaks, sizeof(plumb_body_break), from);
-    read(&f->pieces, h.parts, sizeof(plumb_body), from);
+    from = read_list(&f->breaks, h.breaks, sizeof(plumb_body_break), from);
+    read_list(&f->pieces, h.parts, sizeof(plumb_body), from);
     heats->gone_count = (uint32_t)h.gone;
     f->break_count = (uint32_t)h.breaks;
     f->piece_count = (uint32_t)h.parts;
