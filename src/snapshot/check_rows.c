@@ -168,7 +168,8 @@ static double rounding_of(const pl_vertex *v, uint32_t count)
 {
     double most = 0;
     for (uint32_t k = 0; k < count; ++k) {
-        most = fmax(most, fabs((double)v[k].x) + fabs((double)v[k].y));
+        const double far = fabs((double)v[k].x) + fabs((double)v[k].y);
+        most = far > most ? far : most;
     }
     return 4 * (double)PLUMB_REAL_EPSILON * most;
 }
