@@ -58,7 +58,8 @@ typedef struct plumb_measures {
     double momentum;        ///< [N s] most that a body's change of momentum differs from its impulses; soft step
     double joint_length;    ///< [m] most that a rigid row of a joint is off
     double joint_angle;     ///< [rad] likewise, of rows that turn alone
-    double before, after;   ///< [J] kinetic + potential + stored: as the step began, as it ended
+    double before, after;   ///< [J] kinetic + potential + stored: as the step began, as it ended; of bodies and joints, not
+                            ///< of laws and soft bodies, which plumb_world_energy has
     /// By what: both columns of all rows add up to `after` - `before`.
     plumb_balance work[PLUMB_WORKS];
 } plumb_measures;

@@ -12,7 +12,9 @@
 #include <math.h>
 #include <string.h>
 
-#define FAR    ((real)1e9)
+#define FAR ((real)1e9)
+#define CARRIED                                                                                    \
+    (2 * PL_LARGEST) // [m] as far as bodies get, which carry nodes along; see check_rows.c
 #define SPEED  ((real)PL_SOFT_SPEED)
 #define STIFF  ((real)1e15)
 #define LENGTH ((real)1e6)
@@ -28,16 +30,18 @@ typedef struct number {
 
 enum { NUMBERS = 10 };
 
-static int list_node(const plumb_softbody_node *n, number out[NUMBERS])
+// `far`: [m] how far off it may be.
+static int list_node(const plumb_softbody_node *n, real far, number out[NUMBERS])
 {
-    const number all[] = { { "node position.x", n->position.x, -FAR, FAR },
-                           { "node position.y", n->position.y, -FAR, FAR },
+    const real rest = (real)1e-6 * far;
+    const number all[] = { { "node position.x", n->position.x, -far, far },
+                           { "node position.y", n->position.y, -far, far },
                            { "node velocity.x", n->velocity.x, -SPEED, SPEED },
                            { "node velocity.y", n->velocity.y, -SPEED, SPEED },
                            { "node mass", n->mass, (real)1e-9, FAR },
                            { "node radius", n->radius, 0, LENGTH },
-                           { "node position_rest.x", n->position_rest.x, -1000, 1000 },
-                           { "node position_rest.y", n->position_rest.y, -1000, 1000 },
+                           { "node position_rest.x", n->position_rest.x, -rest, rest },
+                           { "node position_rest.y", n->position_rest.y, -rest, rest },
                            { "node velocity_rest.x", n->velocity_rest.x, -1, 1 },
                            { "node velocity_rest.y", n->velocity_rest.y, -1, 1 } };
     memcpy(out, all, sizeof all);
@@ -153,7 +157,7 @@ static bool is_item_sound(const pl_softbodies *s, const pl_softbody *item, pl_so
                  item->rest_time - item->rest_time == 0 && is_place(item->low) &&
                  is_place(item->high) && (item->ring == 0 || item->ring >= 3);
     for (uint32_t i = 0; i < item->nodes && sound; ++i) {
-        sound = are_sound(n, list_node(&pl_softbody_nodes(s)[at.node + i], n)) &&
+        sound = are_sound(n, list_node(&pl_softbody_nodes(s)[at.node + i], CARRIED, n)) &&
                 is_rest_sound(&pl_softbody_rests(s)[at.node + i]);
     }
     for (uint32_t i = 0; i < item->edges && sound; ++i) {
@@ -312,7 +316,7 @@ static plumb_result check_elements(const plumb_world *world, const char *fn,
     const uint32_t nodes = (uint32_t)d->node_count;
     number n[NUMBERS];
     for (int i = 0; i < d->node_count; ++i) {
-        PL_TRY(check_numbers(world, fn, n, list_node(&d->nodes[i], n)));
+        PL_TRY(check_numbers(world, fn, n, list_node(&d->nodes[i], FAR, n)));
     }
     for (int i = 0; i < d->edge_count; ++i) {
         if (!is_edge_of(&d->edges[i], nodes)) {
@@ -390,7 +394,7 @@ plumb_result pl_softbody_check_node(const plumb_world *world, const char *fn,
                                     const plumb_softbody_node *node)
 {
     number n[NUMBERS];
-    return check_numbers(world, fn, n, list_node(node, n));
+    return check_numbers(world, fn, n, list_node(node, FAR, n));
 }
 
 plumb_result pl_softbody_check_gas(const plumb_world *world, const char *fn,

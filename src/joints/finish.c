@@ -182,7 +182,9 @@ void pl_joints_finish(plumb_world *world, real dt)
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         uint32_t slot = ((const uint32_t *)world->joints.awake.data)[i];
         const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[slot];
-        if (mark->quiet) {
+        const bool exactly =
+            mark->cluster == world->joints.plan.exact_group; // one by one, sums and all
+        if (mark->quiet && !exactly) {
             continue;
         }
         pl_joint *j = &pl_joint_items(&world->joints)[slot];
@@ -190,7 +192,7 @@ void pl_joints_finish(plumb_world *world, real dt)
             rest(j);
             continue;
         }
-        if (!pl_joint_is_wide(mark) || mark->cluster == world->joints.plan.exact_group) {
+        if (!pl_joint_is_wide(mark) || exactly) {
             react(world, j);
         }
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];

@@ -13,7 +13,7 @@
 #include "snapshot/image.h"
 
 #define PL_RECORD_MAGIC   UINT64_C(0x434552424d554c50) // "PLUMBREC" in a little-endian file
-#define PL_RECORD_VERSION 2u                           // 1: without NOTEs; read as well
+#define PL_RECORD_VERSION 3u // 1: without NOTEs; 2: without PL_EDIT_TOLD; both are read as well
 #define PL_TITLE_MAX      256
 
 typedef struct pl_record_header {
@@ -80,7 +80,7 @@ typedef struct pl_note_head {
     uint64_t bytes; // before padding
 } pl_note_head;
 
-// An edit, padded to 8 bytes. What the state was and became, as a delta; or contacts.
+// An edit, padded to 8 bytes. What the state was and became, as a delta; or contacts, or events.
 typedef struct pl_edit_head {
     uint32_t phase; // 0: before the step, else a pl_edit_mark
     uint32_t kind;  // pl_edit_kind; of PL_EDIT_HOOK: + 256 times which of the step, from 0
@@ -102,7 +102,8 @@ static inline int pl_edit_phase(uint32_t mark)
 typedef enum pl_edit_kind {
     PL_EDIT_STATE,
     PL_EDIT_CONTACTS,
-    PL_EDIT_HOOK // PL_EDIT_STATE by a hook of a component that the step took from something
+    PL_EDIT_HOOK, // PL_EDIT_STATE by a hook of a component that the step took from something
+    PL_EDIT_TOLD  // events that were made as the step began (told.h)
 } pl_edit_kind;
 
 #define PL_EDIT_KINDS 256u // a hook's number counts by it

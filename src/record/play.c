@@ -6,6 +6,8 @@
 // Reads: the recording. Writes: the world. Cost: O(state) an edit.
 #include "record/compare.h"
 #include "record/replay.h"
+#include "record/told.h"
+#include "schema/material.h"
 #include "world/check.h"
 
 #include <string.h>
@@ -162,8 +164,9 @@ static bool is_contact(const pl_contact_note *n)
 {
     const double most = (double)PLUMB_REAL_MAX;
     return n->disabled <= 1 && n->friction >= 0 && n->friction <= most && n->restitution >= 0 &&
-           n->restitution <= 1 && n->rolling >= 0 && n->rolling <= most && n->adhesion >= 0 &&
-           n->adhesion <= most && n->surface_speed >= -most && n->surface_speed <= most;
+           n->restitution <= PL_RESTITUTION_MOST && n->rolling >= 0 && n->rolling <= most &&
+           n->adhesion >= 0 && n->adhesion <= most && n->surface_speed >= -most &&
+           n->surface_speed <= most;
 }
 
 static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
@@ -190,7 +193,11 @@ static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
     }
 }
 
-void pl_replay_play(plumb_replay *replay, uint32_t phase, int64_t hook)
+// What to do with an edit of the step under way.
+typedef void play_fn(plumb_replay *replay, const pl_edit_head *edit, const char *data,
+                     int64_t hook);
+
+static void each_edit(plumb_replay *replay, uint32_t phase, int64_t hook, play_fn *play)
 {
     const pl_chunk *chunk = replay->playing;
     if (chunk == NULL) { // a step of the user's own
@@ -203,13 +210,43 @@ void pl_replay_play(plumb_replay *replay, uint32_t phase, int64_t hook)
         pl_edit_head edit;
         memcpy(&edit, chunk->data + at, sizeof edit);
         at += sizeof edit;
-        const bool is_hooks = edit.kind % PL_EDIT_KINDS == PL_EDIT_HOOK;
-        const bool due = is_hooks ? edit.kind / PL_EDIT_KINDS == hook : hook < 0;
-        if (due && edit.phase == phase && edit.kind != PL_EDIT_CONTACTS) {
-            play_state(replay, phase, chunk->data + at, (size_t)edit.bytes);
-        } else if (due && edit.phase == phase) {
-            play_contacts(replay, chunk->data + at, (size_t)edit.bytes);
+        if (edit.phase == phase) {
+            play(replay, &edit, chunk->data + at, hook);
         }
         at += pl_image_padded((size_t)edit.bytes);
     }
+}
+
+static void play_edit(plumb_replay *replay, const pl_edit_head *edit, const char *data,
+                      int64_t hook)
+{
+    const bool is_hooks = edit->kind % PL_EDIT_KINDS == PL_EDIT_HOOK;
+    const bool due = is_hooks ? edit->kind / PL_EDIT_KINDS == hook : hook < 0;
+    if (!due || edit->kind == PL_EDIT_TOLD) {
+        return;
+    }
+    if (edit->kind == PL_EDIT_CONTACTS) {
+        play_contacts(replay, data, (size_t)edit->bytes);
+    } else {
+        play_state(replay, edit->phase, data, (size_t)edit->bytes);
+    }
+}
+
+void pl_replay_play(plumb_replay *replay, uint32_t phase, int64_t hook)
+{
+    each_edit(replay, phase, hook, play_edit);
+}
+
+static void play_told(plumb_replay *replay, const pl_edit_head *edit, const char *data,
+                      int64_t hook)
+{
+    (void)hook;
+    if (edit->kind == PL_EDIT_TOLD) {
+        replay->failed = pl_told_play(replay->world, data, (size_t)edit->bytes);
+    }
+}
+
+void pl_replay_play_told(plumb_replay *replay)
+{
+    each_edit(replay, 0, -1, play_told);
 }

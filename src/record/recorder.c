@@ -11,6 +11,7 @@
 #include "plumb/record.h"
 #include "plumb/snapshot.h"
 #include "record/format.h"
+#include "record/told.h"
 #include "step/place.h"
 #include "world/check.h"
 #include "world/observer.h"
@@ -261,6 +262,16 @@ static void note_contacts(recorder *r, plumb_world *world, uint32_t mark)
 
 //---- in the step ---------------------------------------------------------------------------------
 
+static void note_told(recorder *r, plumb_world *world)
+{
+    const size_t bytes = pl_told_bytes(world);
+    char *to = bytes == 0 ? NULL : begin_edit(r, world, 0, PL_EDIT_TOLD, bytes);
+    if (to != NULL) {
+        pl_told_write(world, to);
+        end_edit(r, bytes);
+    }
+}
+
 static bool begin_step(recorder *r, plumb_world *world)
 {
     const pl_step_head none = { 0 };
@@ -288,6 +299,7 @@ static void at_begin(pl_step_observer *self, plumb_world *world)
     } else {
         note_state(r, world, 0, PL_EDIT_STATE, &r->last);
     }
+    note_told(r, world);
 }
 
 static void before_systems(pl_step_observer *self, plumb_world *world, plumb_phase phase)

@@ -50,6 +50,12 @@ const char *plumb_replay_error(const plumb_replay *replay)
 
 //---- keyframes -----------------------------------------------------------------------------------
 
+static void at_begin(pl_step_observer *self, plumb_world *world)
+{
+    (void)world;
+    pl_replay_play_told((plumb_replay *)self);
+}
+
 static void after_systems(pl_step_observer *self, plumb_world *world, plumb_phase phase)
 {
     pl_replay_play((plumb_replay *)self, pl_edit_mark(phase, world->quarantine.attempt), -1);
@@ -79,9 +85,11 @@ static plumb_result make_world(plumb_replay *replay)
                                     .log = d->log,
                                     .hook_context = d->hook_context };
     PL_TRY(plumb_world_create(&desc, &replay->world));
-    replay->observer = (pl_step_observer){
-        .replays = true, .after = after_systems, .dropped = after_hook, .passed = after_pass
-    };
+    replay->observer = (pl_step_observer){ .replays = true,
+                                           .begin = at_begin,
+                                           .after = after_systems,
+                                           .dropped = after_hook,
+                                           .passed = after_pass };
     replay->world->observer = &replay->observer;
     replay->code = UINT32_MAX;
     return PLUMB_OK;
@@ -262,9 +270,18 @@ static plumb_result take_step(plumb_replay *replay, const char *fn)
     return PLUMB_OK;
 }
 
+// The last step until then that moved anything: one of dt 0 shows the contacts that it left.
+static uint64_t moved_by(const plumb_replay *replay, uint64_t step)
+{
+    while (step > 0 && !(pl_index_step_head(&replay->index, step - 1).dt > 0)) {
+        --step;
+    }
+    return step;
+}
+
 static plumb_result seek(plumb_replay *replay, const char *fn, uint64_t step)
 {
-    const pl_key_place *key = pl_index_key_before(&replay->index, step);
+    const pl_key_place *key = pl_index_key_before(&replay->index, moved_by(replay, step));
     bool onward = step >= replay->step && !replay->differs && replay->step >= key->step;
     if (step == replay->step && !replay->differs) {
         return PLUMB_OK;

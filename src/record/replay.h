@@ -42,6 +42,8 @@ bool pl_replay_keep(plumb_replay *replay, pl_played_image *kept);
 // Plays the edits of one phase (0: before the step, else a pl_edit_mark) of the step under way: of its systems,
 // or of the hook of that number in the step; -1: of no hook.
 void pl_replay_play(plumb_replay *replay, uint32_t phase, int64_t hook);
+// Plays what was told as the step under way began.
+void pl_replay_play_told(plumb_replay *replay);
 // Registers components and systems of pl_index.codes[code] that the world has not got.
 plumb_result pl_replay_register(plumb_replay *replay, uint32_t code);
 // Adds what is not alike in two images to the edits of the step.

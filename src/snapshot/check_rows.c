@@ -8,6 +8,7 @@
 #include "world/material_pair.h"
 #include "world/rows.h"
 
+#include <math.h>
 #include <string.h>
 
 //---- registry ------------------------------------------------------------------------------------
@@ -128,6 +129,15 @@ static bool check_partition(const plumb_world *w, uint32_t i)
            (b->type[i] == PLUMB_DYNAMIC || (b->inv_mass[i] == 0 && b->inv_inertia[i] == 0));
 }
 
+// What is of a step alone is as the world has it, which is in the midst of one where a recording is played.
+static bool check_passing(const pl_suspect *s, uint32_t i)
+{
+    const pl_bodies *like = &s->like->bodies;
+    const uint16_t flags = s->world.bodies.flags[i];
+    const uint16_t most = i < like->table.count ? like->flags[i] : 0;
+    return (flags & ~most & PL_BODY_WITHIN_STEP) == 0;
+}
+
 bool pl_check_bodies(pl_suspect *s)
 {
     const plumb_world *w = &s->world;
@@ -139,7 +149,7 @@ bool pl_check_bodies(pl_suspect *s)
     }
     for (uint32_t i = 0; i < b->table.count; ++i) {
         if (pl_suspect_row(s, b->entity[i]) != i || !check_motion(b, i, i < w->dynamic_count) ||
-            !check_partition(w, i)) {
+            !check_partition(w, i) || !check_passing(s, i)) {
             return false;
         }
         turning += b->inv_inertia[i] > 0;
@@ -152,26 +162,45 @@ bool pl_check_bodies(pl_suspect *s)
 
 //---- pieces --------------------------------------------------------------------------------------
 
+// [m] by how much corners are off at the most because their places are rounded: what a merger brings from afar, or what is
+// made far from the origin of its body.
+static double rounding_of(const pl_vertex *v, uint32_t count)
+{
+    double most = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        const double far = fabs((double)v[k].x) + fabs((double)v[k].y);
+        most = far > most ? far : most;
+    }
+    return 4 * (double)PLUMB_REAL_EPSILON * most;
+}
+
+// By how much something lies out is within a tenth of how far it is, and rounding.
+static bool is_slight(double out, double way2, double rounding)
+{
+    const double rest = out - rounding;
+    return rest <= 0 || rest * rest <= 0.01 * way2;
+}
+
 // Corners in order around the outline, with the normals of its edges.
 static bool check_corners(const pl_vertex *v, uint32_t count)
 {
     if (!pl_are_reals(v, (size_t)count * 4)) {
         return false;
     }
+    const double rounding = rounding_of(v, count);
     for (uint32_t k = 0; k < count; ++k) {
         const pl_vertex *next = &v[(k + 1) % count];
         const double nx = (double)v[k].nx, ny = (double)v[k].ny;
         const double dx = (double)next->x - (double)v[k].x, dy = (double)next->y - (double)v[k].y;
         const double length = dx * dx + dy * dy, along = dx * nx + dy * ny;
         if (!is_unit(v[k].nx, v[k].ny) || !is_within(v[k].x, 1e9) || !is_within(v[k].y, 1e9) ||
-            along * along > 0.01 * length) {
+            !is_slight(fabs(along), length, rounding)) {
             return false;
         }
         for (uint32_t i = 0; i < count; ++i) { // convex: all lies behind each edge
             const double ex = (double)v[i].x - (double)v[k].x;
             const double ey = (double)v[i].y - (double)v[k].y;
-            const double out = ex * nx + ey * ny;
-            if (out > 0 && out * out > 0.01 * (ex * ex + ey * ey)) {
+            if (!is_slight(ex * nx + ey * ny, ex * ex + ey * ey, rounding)) {
                 return false;
             }
         }

@@ -263,16 +263,24 @@ WIDE_INLINE vec reach_of(const turning *t, int j, const body *a, const body *b, 
     return (vec){ t->nx * gap + grown->x, t->ny * gap + grown->y };
 }
 
-WIDE_INLINE void set_point(bundle *c, int j, vm turns, const body *a, const body *b, vec ra, vec rb)
+// [1/kg] inverse masses of both along a normal (x, y); `s` null: no axis is locked.
+WIDE_INLINE vf mass_along(const special *s, const body *a, const body *b, vf x, vf y)
+{
+    return s != NULL ? (s->aix + s->bix) * x * x + (s->aiy + s->biy) * y * y
+                     : a->inv_mass + b->inv_mass;
+}
+
+WIDE_INLINE void set_point(bundle *c, const special *s, int j, vm turns, const body *a,
+                           const body *b, vec ra, vec rb)
 {
     point *p = &c->p[j];
-    const vf mass = a->inv_mass + b->inv_mass;
+    const vf mass_n = mass_along(s, a, b, c->nx, c->ny), mass_t = mass_along(s, a, b, c->ny, c->nx);
     p->ran = sel(turns, ra.x * c->ny - ra.y * c->nx, p->ran);
     p->rbn = sel(turns, rb.x * c->ny - rb.y * c->nx, p->rbn);
     p->rat = sel(turns, ra.x * c->nx + ra.y * c->ny, p->rat);
     p->rbt = sel(turns, rb.x * c->nx + rb.y * c->ny, p->rbt);
-    const vf kn = mass + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn;
-    const vf kt = mass + a->inv_inertia * p->rat * p->rat + b->inv_inertia * p->rbt * p->rbt;
+    const vf kn = mass_n + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn;
+    const vf kt = mass_t + a->inv_inertia * p->rat * p->rat + b->inv_inertia * p->rbt * p->rbt;
     const vm heavy = p->kn > splat(0);
     p->give = sel(turns & heavy, p->give * kn / sel(heavy, p->kn, splat(1)), p->give);
     p->kn = sel(turns, kn, p->kn);
@@ -280,7 +288,7 @@ WIDE_INLINE void set_point(bundle *c, int j, vm turns, const body *a, const body
 }
 
 // Normal, anchors and separations of now.
-WIDE_INLINE void follow(turning *t, bundle *c, const body *a, const body *b)
+WIDE_INLINE void follow(turning *t, bundle *c, const special *s, const body *a, const body *b)
 {
     const vf zero = splat(0), one = splat(1);
     const vm turns = t->turns, round = ~(t->with_a | t->with_b);
@@ -302,19 +310,19 @@ WIDE_INLINE void follow(turning *t, bundle *c, const body *a, const body *b)
         // Between centres by what has changed, lest a large radius rounds it off.
         const vf more = dot(grown[j], (vec){ x[0].x + start.x * gap, x[0].y + start.y * gap }) /
                         sel(round, divisor + gap, one);
-        const vf s = sel(round, t->start[j] + more, along - t->ra - t->rb);
+        const vf apart = sel(round, t->start[j] + more, along - t->ra - t->rb);
         const vec aside = { x[j].x - along * n.x, x[j].y - along * n.y };
         const vec slid_a = sel2(t->with_a, aside, (vec){ zero, zero });
         const vec slid_b = sel2(t->with_b, aside, (vec){ zero, zero });
         set_point(
-            c, j, turns, a, b,
+            c, s, j, turns, a, b,
             (vec){ arm_a[j].x + t->ra * n.x + slid_a.x, arm_a[j].y + t->ra * n.y + slid_a.y },
             (vec){ arm_b[j].x - t->rb * n.x - slid_b.x, arm_b[j].y - t->rb * n.y - slid_b.y });
         const vm here = turns & (t->start[j] < splat(PL_APART / 2));
-        t->separation[j] = sel(here, s, t->separation[j]);
-        c->p[j].separation = sel(here, s - closed(c, j, a, b), c->p[j].separation);
+        t->separation[j] = sel(here, apart, t->separation[j]);
+        c->p[j].separation = sel(here, apart - closed(c, j, a, b), c->p[j].separation);
     }
-    c->k01 = sel(turns, coupling(c, a->inv_mass + b->inv_mass, a, b), c->k01);
+    c->k01 = sel(turns, coupling(c, mass_along(s, a, b, c->nx, c->ny), a, b), c->k01);
 }
 
 // The share of kicks that comes behind the drift (halves.c): of two bodies the smaller one, lest momentum be lost where
@@ -335,10 +343,10 @@ WIDE_INLINE vf share_of(const pl_contact_call *call, const bundle *c)
     return load(share);
 }
 
-// Turns the impulses of a side's body: a share now; all of it in the next substep, whose impulses are the difference of the
+// Turns the impulses of a side's body, `ease` [1/kg] along x and y: a share now; all of it in the next substep, whose impulses are the difference of the
 // velocity to the one that was integrated.
 WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *places, const body *of,
-                           vf now, vf x, vf y, vf w)
+                           vec ease, vf now, vf x, vf y, vf w)
 {
     const near_real *from[PL_WIDTH];
     near_real sink[4] __attribute__((aligned(32)));
@@ -348,7 +356,7 @@ WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *places, 
         from[i] = &call->motions[slot].ux;
         to[i] = slot < call->dynamic_slots ? &call->motions[slot].ux : sink;
     }
-    x *= of->inv_mass, y *= of->inv_mass, w *= of->inv_inertia;
+    x *= ease.x, y *= ease.y, w *= of->inv_inertia;
     vf u[4];
     gather4(u, from, 0);
     const vf then = splat(1) - now;
@@ -363,6 +371,7 @@ void PL_WIDE_NAME(pl_contact_follow_moment)(const pl_contact_call *call, uint32_
 {
     bundle *bundles = call->bundles;
     turning *turnings = call->turnings;
+    const special *specials = call->specials;
     for (uint32_t k = first; k < first + count; ++k) {
         turning *t = &turnings[k];
         if (!t->any) {
@@ -372,11 +381,14 @@ void PL_WIDE_NAME(pl_contact_follow_moment)(const pl_contact_call *call, uint32_
         body a, b;
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
+        const special *s = specials != NULL ? &specials[k] : NULL;
         const given was = sum_impulses(c);
-        follow(t, c, &a, &b);
+        follow(t, c, s, &a, &b);
         const given is = sum_impulses(c);
         const vf share = share_of(call, c);
-        turn_side(call, c->a, &a, share, was.x - is.x, was.y - is.y, was.a - is.a);
-        turn_side(call, c->b, &b, share, is.x - was.x, is.y - was.y, is.b - was.b);
+        const vec ease_a = s != NULL ? (vec){ s->aix, s->aiy } : (vec){ a.inv_mass, a.inv_mass };
+        const vec ease_b = s != NULL ? (vec){ s->bix, s->biy } : (vec){ b.inv_mass, b.inv_mass };
+        turn_side(call, c->a, &a, ease_a, share, was.x - is.x, was.y - is.y, was.a - is.a);
+        turn_side(call, c->b, &b, ease_b, share, is.x - was.x, is.y - was.y, is.b - was.b);
     }
 }

@@ -105,7 +105,13 @@ static pl_contact_call call_of(const pl_solving_step *step, const pl_cluster *cl
     return call;
 }
 
-// All of a step for one cluster.
+// No body is in a contact, has a joint or is in the hands of an effect.
+static bool moves_nothing(const plumb_world *world)
+{
+    return world->solver.slot_count <= 1;
+}
+
+// All of a step for one cluster. Joints that hold nothing that moves stay as they are, whoever looks on.
 static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
 {
     const pl_cluster *cluster = &pl_clusters(&step->world->solver)[i];
@@ -117,7 +123,7 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
     pl_solving solving = { .step = step,
                            .call = call_of(step, cluster, thread),
                            .joints = &joints,
-                           .any_joints = pl_joints_any(&joints),
+                           .any_joints = pl_joints_any(&joints) && !moves_nothing(step->world),
                            .elastic = i == 0 && step->elastic,
                            .exact = i == step->world->solver.hard_cluster,
                            .fine = fine };
@@ -199,11 +205,10 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
     };
 }
 
-// Whether rows have nothing to act on: no body is in a contact, has a joint or is in the hands of an effect. Systems run
-// all the same, and who watches rows is told of each.
+// Whether rows have nothing to act on. Systems run all the same, and who checks rows is told of each.
 static bool is_idle(const plumb_world *world, const pl_substep_rows *rows)
 {
-    return world->solver.slot_count <= 1 && world->systems.in_substeps == 0 && rows->before == NULL;
+    return moves_nothing(world) && world->systems.in_substeps == 0 && !rows->alone;
 }
 
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, real dt)

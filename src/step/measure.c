@@ -13,6 +13,7 @@
 #include "world/rows.h"
 #include "world/state.h"
 
+#include <math.h>
 #include <string.h>
 
 void pl_measure_free(pl_memory *memory, pl_measure *m)
@@ -126,7 +127,8 @@ static void book_solved(plumb_world *world, uint32_t row, uint32_t slot)
         work[i].kinetic += body->work[i].kinetic;
         work[i].potential += body->work[i].potential;
     }
-    if ((b->flags[row] & PL_BODY_HAS_SETTINGS) != 0) {
+    const bool stands = body->mass == 0; // its time does, and it keeps the velocity that it has
+    if ((b->flags[row] & PL_BODY_HAS_SETTINGS) != 0 && !stands) {
         const double vx = (double)solved->vx, vy = (double)solved->vy, w = (double)solved->w;
         work[PLUMB_WORK_DAMPING].kinetic +=
             kinetic(b, row) - (body->mass * (vx * vx + vy * vy) + body->inertia * w * w) / 2;
@@ -226,6 +228,8 @@ static bool reserve(plumb_world *world)
            pl_joints_measure_reserve(world);
 }
 
+#define BORROWED 1e-5 // share of a mass, beyond its rounding
+
 static void open_body(const plumb_world *world, uint32_t row, uint32_t slot)
 {
     const pl_bodies *b = &world->bodies;
@@ -234,8 +238,12 @@ static void open_body(const plumb_world *world, uint32_t row, uint32_t slot)
     const double share = time > 0 ? 1 / (time * time) : 0;
     const double m = (double)b->mass[row], weight = m * (double)b->gravity_scale[row];
     const plumb_vec2 g = world->effects.gravity, told = world->gravity;
+    const double im = (double)pl_solver_bodies(&world->solver)[slot].inv_mass;
+    const bool borrows = im > 0 && fabs(im * m * share - 1) > BORROWED;
     ((pl_measured_body *)world->measure.bodies.data)[slot] =
         (pl_measured_body){ .mass = m * share,
+                            .met = borrows ? 1 / im : m * share,
+                            .borrows = borrows,
                             .inertia = own_inertia(b, row) * share,
                             .pull_x = weight * (double)g.x,
                             .pull_y = weight * (double)g.y,

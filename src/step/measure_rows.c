@@ -365,7 +365,8 @@ static void share_out(const pl_substep *s, row_kind kind)
 static void book_exact(pl_measured_body *b, const pl_solver_body *body, double share)
 {
     book_share(b, share);
-    b->work[PLUMB_WORK_NORMAL].kinetic += gained(b, body) - (booked(b) - b->booked);
+    const plumb_work rest = b->borrows ? PLUMB_WORK_FORCES : PLUMB_WORK_NORMAL;
+    b->work[rest].kinetic += gained(b, body) - (booked(b) - b->booked);
 }
 
 static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
@@ -396,8 +397,10 @@ static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
     // links that flutter: what that does is theirs.
     const bool joints_know =
         body->inv_inertia != b->ease || (s->solving->any_joints && pl_joints_direct(s->world));
-    if (joints_know && rule.kind != ROW_WORK) {
-        b->work[PLUMB_WORK_JOINTS].kinetic += gained(b, body) - (booked(b) - b->booked);
+    // An impulse moves the mass that a fluid lends as well, and what of it that takes is the fluid's.
+    if ((joints_know || b->borrows) && rule.kind != ROW_WORK) {
+        b->work[b->borrows ? PLUMB_WORK_FORCES : PLUMB_WORK_JOINTS].kinetic +=
+            gained(b, body) - (booked(b) - b->booked);
     }
 }
 
@@ -432,8 +435,8 @@ static void find_imbalance(const pl_substep *s, pl_measuring *found)
         const pl_solver_motion *motion = &pl_solver_motions(solver)[i];
         const uint32_t row = ((const uint32_t *)solver->rows.data)[i];
         if ((s->world->bodies.flags[row] & PL_BODY_LOCKED) == 0) {
-            const double x = b->mass * (double)(body->vx - motion->ux) - b->px;
-            const double y = b->mass * (double)(body->vy - motion->uy) - b->py;
+            const double x = b->met * (double)(body->vx - motion->ux) - b->px;
+            const double y = b->met * (double)(body->vy - motion->uy) - b->py;
             pl_measure_most(&found->momentum, sqrt(x * x + y * y));
         }
     }

@@ -84,10 +84,17 @@ static void watch_row(plumb_world *world, uint32_t line, real dt)
                       place.system, dt);
 }
 
-// Around a row, where somebody watches. Returns when it starts [ns], if times are watched.
-static double open_row(plumb_world *world, uint32_t line)
+// What is watched in a step of dt. A step of dt 0 moves nothing: neither measures nor watchdog have begun one.
+static unsigned watched_in(const plumb_world *world, real dt)
 {
     const unsigned watched = world->schedule.watched;
+    return dt > 0 ? watched : watched & ~(PL_WATCH_MEASURES | PL_WATCH_DOG);
+}
+
+// Around a row, where somebody watches. Returns when it starts [ns], if times are watched.
+static double open_row(plumb_world *world, uint32_t line, real dt)
+{
+    const unsigned watched = watched_in(world, dt);
     if ((watched & PL_WATCH_MEASURES) != 0) {
         pl_measure_before(world, once_of(world, line));
     }
@@ -103,7 +110,7 @@ static double open_row(plumb_world *world, uint32_t line)
 
 static void close_row(plumb_world *world, uint32_t line, double start, real dt)
 {
-    const unsigned watched = world->schedule.watched;
+    const unsigned watched = watched_in(world, dt);
     if ((watched & PLUMB_WATCH_TIMES) != 0) {
         const double ns = pl_now_ns() - start - world->schedule.inner_ns;
         pl_schedule_note(world, pl_schedule_place(world, line), ns);
@@ -127,7 +134,7 @@ static plumb_result run_pass(plumb_world *world, uint32_t line, real dt)
         return PLUMB_OK;
     }
     const bool watched = world->schedule.watched != 0;
-    const double start = watched ? open_row(world, line) : 0;
+    const double start = watched ? open_row(world, line, dt) : 0;
     world->query_grids.fresh = false; // what systems ask about moves from pass to pass
     const plumb_result result = pass->run(world, dt);
     if (watched) {
@@ -169,7 +176,7 @@ static void run_systems(plumb_world *world, group g, real dt)
             continue;
         }
         const bool watched = world->schedule.watched != 0;
-        const double start = watched ? open_row(world, line) : 0;
+        const double start = watched ? open_row(world, line, dt) : 0;
         pl_system_run(world, system, dt);
         if (watched) {
             close_row(world, line, start, dt);

@@ -62,7 +62,7 @@ typedef struct pl_hint {
     X(uint32_t, settings, ONE_MORE(SETTINGS)) /* 1 + its record in world->settings; 0: none */      \
     X(pl_hint, stirring, ANY) /* kinematic: it moves, or was changed, and wakes what it touches */  \
     X(uint8_t, type, UP_TO(PLUMB_STATIC)) /* plumb_body_type */                                     \
-    X(uint16_t, flags, UP_TO(0x3fff)) /* PL_BODY_..., but PL_BODY_LOST, PL_BODY_TURNED */
+    X(uint16_t, flags, ANY) /* PL_BODY_...; of images see check_rows.c */
 
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
@@ -79,6 +79,7 @@ typedef struct pl_hint {
 #define PL_BODY_OWN_CENTER     0x2000u // its centre of mass was given, not taken from the shapes
 #define PL_BODY_LOST           0x4000u // the step has no finite end for it; only within the step
 #define PL_BODY_TURNED         0x8000u // it slept when the step was first tried and is awake now, or the other way; only within the step
+#define PL_BODY_WITHIN_STEP    (PL_BODY_LOST | PL_BODY_TURNED)
 #define PL_BODY_LOCKED         (PL_BODY_LOCK_X | PL_BODY_LOCK_Y)
 #define PL_BODY_HAS_EFFECTS    (PL_BODY_LOCKED | PL_BODY_HAS_SETTINGS) // does not move as the rest do
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once

@@ -1,4 +1,5 @@
-// test_moment.c - when in a step a blow fell, against the time of a fall, sqrt(2 h / g).
+// test_moment.c - when in a step a blow fell, against the time of a fall, sqrt(2 h / g); contacts that turn within a step leave
+// locked axes alone.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,6 +9,7 @@
 #include <cmocka.h>
 
 #include "harness/near.h"
+#include "harness/random.h"
 #include "harness/sim.h"
 
 #define DT     (1 / 60.0)
@@ -60,10 +62,54 @@ static void a_blow_tells_its_moment(void **state)
     }
 }
 
+// [m] how far the centre of a body with a locked axis got along it, at the most, where others turn and strike it.
+static double strayed(plumb_solver solver, bool coarse, uint32_t seed)
+{
+    enum { BODIES = 12 };
+    plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solver, .no_fine_islands = coarse });
+    const plumb_material m = sim_material(w, 0.6, 0);
+    plumb_body body[BODIES];
+    double from[BODIES], most = 0;
+    sim_floor(w, m);
+    for (int i = 0; i < BODIES; ++i) {
+        const double x = sim_uniform(&seed, -2, 2), y = sim_uniform(&seed, 0.5, 5);
+        body[i] = i % 2 == 0 ? sim_ball(w, x, y, 0.25, m) : sim_crate(w, x, y, 0.3, 0.2, m);
+        plumb_body_set_velocity(w, body[i], plumb_v2((plumb_real)sim_uniform(&seed, -5, 5), 0));
+        plumb_body_set_angular_velocity(w, body[i], (plumb_real)sim_uniform(&seed, -20, 20));
+        plumb_body_set_locks(w, body[i], (plumb_axis_locks){ .x = i % 3 == 0, .y = i % 3 == 1 });
+        const plumb_vec2 at = plumb_body_center(w, body[i]);
+        from[i] = (double)(i % 3 == 0 ? at.x : at.y);
+    }
+    for (int step = 0; step < 60; ++step) {
+        sim_step(w, DT);
+        for (int i = 0; i < BODIES; ++i) {
+            const plumb_vec2 at = plumb_body_center(w, body[i]);
+            most =
+                i % 3 == 2 ? most : fmax(most, fabs((double)(i % 3 == 0 ? at.x : at.y) - from[i]));
+        }
+    }
+    plumb_world_destroy(w);
+    return most;
+}
+
+static void locked_axes_stay_locked_where_contacts_turn(void **state)
+{
+    (void)state;
+    for (int solver = PLUMB_SOLVER_SOFT; solver <= PLUMB_SOLVER_EXACT; ++solver) {
+        double most = 0;
+        for (uint32_t seed = 1; seed <= 10; ++seed) {
+            most = fmax(most, strayed((plumb_solver)solver, seed % 2 == 0, seed * 7919));
+        }
+        print_message("solver %d: along a locked axis %.3g m\n", solver, most);
+        assert_true(most == 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_blow_tells_its_moment),
+        cmocka_unit_test(locked_axes_stay_locked_where_contacts_turn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,11 +71,66 @@ static void names_and_refusals(void **state)
     assert_int_equal(plumb_world_set_measure(NULL, true), PLUMB_E_NULL);
 }
 
+static void do_nothing(const plumb_system_call *call)
+{
+    (void)call;
+}
+
+// Contact systems run in it, even where no step has been measured yet.
+static void a_step_of_0_with_systems_measures_nothing(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_world_set_measure(w, true);
+    plumb_world_set_watchdog(w, true);
+    const plumb_system_desc system = { .name = "idle",
+                                       .phase = PLUMB_PHASE_CONTACTS,
+                                       .run = do_nothing };
+    assert_int_equal(plumb_system_create(w, &system), PLUMB_OK);
+    assert_int_equal(plumb_world_step(w, 0), PLUMB_OK);
+    assert_int_equal(plumb_world_measures(w)->step, 0);
+    assert_int_equal(plumb_world_step(w, (plumb_real)0.01), PLUMB_OK);
+    const plumb_measures first = *plumb_world_measures(w);
+    plumb_body_teleport(w, f->dynamic, plumb_v2(3, 4), 0);
+    plumb_body_set_velocity(w, f->dynamic, plumb_v2(9, 9));
+    assert_int_equal(plumb_world_step(w, 0), PLUMB_OK);
+    assert_memory_equal(&first, plumb_world_measures(w), sizeof first);
+}
+
+// A joint of what never moves is not begun, whoever looks on.
+static void looking_on_changes_no_bit_of_joints_of_nothing(void **state)
+{
+    (void)state;
+    enum { PLAIN, MEASURED, CHECKED, WATCHED, WAYS };
+    for (int solver = 0; solver < 3; ++solver) {
+        uint64_t hashes[WAYS];
+        for (int way = 0; way < WAYS; ++way) {
+            plumb_world *w;
+            const plumb_world_desc desc = { .solver = (plumb_solver)solver,
+                                            .measure = way == MEASURED,
+                                            .watchdog = way == WATCHED };
+            assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+            plumb_world_watch(w, way == CHECKED ? PLUMB_WATCH_WRITES : PLUMB_WATCH_NOTHING);
+            const plumb_body wall = plumb_body_create(
+                w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 1, 1 } });
+            plumb_joint_create(w, &(plumb_joint_desc){ .body_b = wall });
+            plumb_joint_create(
+                w, &(plumb_joint_desc){ .kind = PLUMB_WELD, .body_b = wall, .tell_impulse = true });
+            plumb_world_step(w, (plumb_real)0.01);
+            hashes[way] = plumb_world_hash(w);
+            assert_true(hashes[way] == hashes[PLAIN]);
+            plumb_world_destroy(w);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         API_TEST(off_nothing_of_it_is_there),
         API_TEST(a_step_of_0_leaves_the_measures),
+        API_TEST(a_step_of_0_with_systems_measures_nothing),
+        cmocka_unit_test(looking_on_changes_no_bit_of_joints_of_nothing),
         cmocka_unit_test(names_and_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

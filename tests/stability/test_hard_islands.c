@@ -175,6 +175,37 @@ static void no_heap_gains_energy(void **state)
     assert_true(exact > 1000);
 }
 
+// A ball that a joint holds on a heavy box, on a light one: of a joint that nobody watches the force is told all the same,
+// and none of what it gave before is held against it when it is to break from now on.
+static void joints_tell_what_they_bear(void **state)
+{
+    (void)state;
+    const plumb_joint_kind kinds[] = { PLUMB_REVOLUTE, PLUMB_PRISMATIC, PLUMB_WELD };
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        const plumb_material wood = sim_material(w, 0.6, 0), iron = heavy_material(w, 100);
+        sim_floor(w, wood);
+        const plumb_body light = sim_crate(w, 0, 0.25, 1, 0.25, wood);
+        const plumb_body heavy = sim_crate(w, 0, 1, 1, 0.5, iron);
+        const plumb_body ball = sim_ball(w, 0, 2, 0.3, iron);
+        const plumb_joint j = plumb_joint_create(
+            w, &(plumb_joint_desc){
+                   .kind = kinds[i], .body_a = heavy, .body_b = ball, .anchor = { 0, 1 } });
+        plumb_joint_create(
+            w, &(plumb_joint_desc){ .body_b = light, .tell_impulse = true, .disabled = true });
+        sim_run(w, 60, HZ60);
+        assert_true(plumb_world_stats(w).exact_islands > 0);
+        const double weight = SIM_G * (double)plumb_body_mass(w, ball);
+        const double force = (double)plumb_vec2_magnitude(plumb_joint_force(w, j));
+        print_message("%s: %.4g N of %.4g N\n", plumb_joint_kind_name(kinds[i]), force, weight);
+        assert_true(fabs(force - weight) < 0.01 * weight);
+        plumb_joint_set_break(w, j, (plumb_real)(2 * weight), 0);
+        sim_run(w, 1, HZ60);
+        assert_true(plumb_joint_valid(w, j));
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -183,6 +214,7 @@ int main(void)
         cmocka_unit_test(what_else_there_is_does_not_show),
         cmocka_unit_test(images_go_on_the_same),
         cmocka_unit_test(no_heap_gains_energy),
+        cmocka_unit_test(joints_tell_what_they_bear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,16 +8,18 @@
 
 // A dynamic body in the solver.
 typedef struct pl_measured_body {
-    double mass, inertia;           // as the solver has it: own time counts
-    double pull_x, pull_y;          // [N] of the gravity that acts
-    double weight_x, weight_y;      // [N] of the gravity that potential energy is told by
-    near_real ease;                 // [1/(kg m^2)] its own inverse inertia: joints may give it less
-    double vx, vy, w, dx, dy;       // before the row that runs
-    double ax, ay, aw;              // likewise, accelerations
-    double booked;                  // [J] likewise, the sum of all kinetic work
-    double mean_x, mean_y, mean_w;  // velocity, mean of before and behind the row
-    double drag_x, drag_y, drag_w;  // [N], [N m] of damping and caps in this substep
-    double px, py, pw;              // [N s], [N m s] impulses of contacts and joints
+    double mass, inertia;  // as the solver has it: own time counts
+    double met;            // [kg] that impulses meet: with what fluids lend it, or fuel that burns
+    bool borrows;          // that is another than its mass
+    double pull_x, pull_y; // [N] of the gravity that acts
+    double weight_x, weight_y;     // [N] of the gravity that potential energy is told by
+    near_real ease;                // [1/(kg m^2)] its own inverse inertia: joints may give it less
+    double vx, vy, w, dx, dy;      // before the row that runs
+    double ax, ay, aw;             // likewise, accelerations
+    double booked;                 // [J] likewise, the sum of all kinetic work
+    double mean_x, mean_y, mean_w; // velocity, mean of before and behind the row
+    double drag_x, drag_y, drag_w; // [N], [N m] of damping and caps in this substep
+    double px, py, pw;             // [N s], [N m s] impulses of contacts and joints
     plumb_balance work[PLUMB_WORKS]; // in this step
     double kick[PLUMB_WORKS][3];     // [N s], [N m s] of what this substep kicked with (halves.c)
 } pl_measured_body;
@@ -30,21 +32,22 @@ typedef struct pl_measured_flight {
 // Of what joints owe because J has turned (joints/one.c).
 typedef enum pl_measured_debt {
     PL_DEBT_NONE,
-    PL_DEBT_OPEN,      // less what is owed still
-    PL_DEBT_PAID,      // what the sweep before the drift paid
+    PL_DEBT_OPEN,       // less what is owed still
+    PL_DEBT_PAID,       // what the sweep before the drift paid
     PL_DEBT_PAID_BEHIND // and the one behind it
 } pl_measured_debt;
 
 // What the kernels are given, and what they find.
 typedef struct pl_measuring {
     pl_measured_body *bodies;
-    uint32_t count;            // slots from here on are immovable or kinematic
-    bool balances;             // impulses are added up instead of work
-    bool kicks;                // and besides, as a part of the substep's kick
-    pl_measured_debt debt;     // what of it is added to the impulses
-    const void *kept;          // bundles or records before the row; null: all of an impulse counts
-    const void *kept_extras;   // likewise
-    const void *kept_impulses; // real, PL_JOINT_ROWS a joint of `grouped`, of those solved one by one
+    uint32_t count;          // slots from here on are immovable or kinematic
+    bool balances;           // impulses are added up instead of work
+    bool kicks;              // and besides, as a part of the substep's kick
+    pl_measured_debt debt;   // what of it is added to the impulses
+    const void *kept;        // bundles or records before the row; null: all of an impulse counts
+    const void *kept_extras; // likewise
+    const void
+        *kept_impulses; // real, PL_JOINT_ROWS a joint of `grouped`, of those solved one by one
     double gap, approach, complementarity, cone, momentum;
 } pl_measuring;
 
