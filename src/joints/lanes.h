@@ -176,11 +176,11 @@ WIDE_INLINE void give(body *a, body *b, const momentum *m, vf share_a, vf share_
 }
 
 // What impulses of A and of B along a row get by its turning.
-WIDE_INLINE void add_turning(momentum *m, const row *now, const row *old, vf of_a, vf of_b)
+WIDE_INLINE void add_turning(momentum *m, const row *now, const row *old, vf of)
 {
     const vf x = now->nx - old->nx, y = now->ny - old->ny;
-    m->ax -= x * of_a, m->ay -= y * of_a, m->aw += (now->wa - old->wa) * of_a;
-    m->bx += x * of_b, m->by += y * of_b, m->bw += (now->wb - old->wb) * of_b;
+    m->ax -= x * of, m->ay -= y * of, m->aw += (now->wa - old->wa) * of;
+    m->bx += x * of, m->by += y * of, m->bw += (now->wb - old->wb) * of;
 }
 
 WIDE_INLINE vf rate(const row *r, const body *a, const body *b)
@@ -377,9 +377,9 @@ WIDE_INLINE momentum make_rows(const parts *at, const pl_joint_pattern *p, const
         row *r = &at->rows[i];
         const row old = *r;
         make_row(r, p->bare ? NULL : &at->sources[i], p->row[i].form, &now, a, b);
-        const vf of_a = c->behind_a * r->start, of_b = c->behind_b * r->start;
-        add_turning(&due, r, &old, of_a, of_b);
-        add_turning(&c->owed, r, &old, r->impulse - of_a, r->impulse - of_b);
+        const vf behind = c->lag * r->start; // of both the same, or momentum would come of it
+        add_turning(&due, r, &old, behind);
+        add_turning(&c->owed, r, &old, r->impulse - behind);
     }
     switch (p->block) {
     case 1:

@@ -39,7 +39,7 @@ static void push_debt(const pl_measuring *m, const parts *at, const parts *old, 
         push_momentum(m, at, &old->c->owed, i, behind_a, behind_b, work);
         for (int n = 0; n < count; ++n) {
             const row *r = &at->rows[n];
-            add_turning(&due, r, &old->rows[n], c->behind_a * r->start, c->behind_b * r->start);
+            add_turning(&due, r, &old->rows[n], c->lag * r->start);
         }
         push_momentum(m, at, &due, i, 1, 1, work);
     }

@@ -404,6 +404,7 @@ void pl_one_pay(const pl_joint_context *c, pl_joint *j, pl_solver_body *a, pl_so
     const pl_solver *solver = &c->world->solver;
     const near_real *kicked = solver->kicked.data;
     const real share = pl_joint_lag(kicked, solver->dynamic_slots, j->slot_a, j->slot_b);
+    j->lag = share;
     const real stiff = share * pl_joint_spared(j->degree);
     j->behind[0] = pl_joint_behind(kicked, solver->dynamic_slots, j->slot_a);
     j->behind[1] = pl_joint_behind(kicked, solver->dynamic_slots, j->slot_b);
@@ -434,8 +435,8 @@ void pl_one_refresh(const pl_joint_context *c, pl_joint *j, pl_solver_body *a, p
         pl_row_half *half = &j->half[i];
         const real by[6] = { r->ax - o->ax, r->ay - o->ay, r->aw - o->aw,
                              r->bx - o->bx, r->by - o->by, r->bw - o->bw };
+        const real due = j->lag * half->start; // of both the same, or momentum would come of it
         for (int k = 0; k < 6; ++k) {
-            const real due = behind[k / 3] * half->start;
             j->paid[k] += due * by[k];
             j->turn[k] += (j->impulse[i] - due) * by[k];
         }

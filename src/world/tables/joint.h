@@ -133,6 +133,7 @@ struct pl_joint {
     real inverse[3][3];       // of the block's K = J M^-1 J^T
     real turn[6], paid[6];    // change of momentum owed because J has turned, and last paid: see one.c
     real behind[2];           // shares of A's and B's kick that come behind the drift
+    real lag;                 // that of a row between the two (pl_joint_lag)
     pl_row_half half[PL_JOINT_ROWS];
     pl_rows rows;
     plumb_vec2 arm_b;        // [m] from B's centre to its anchor, at the rows
