@@ -147,13 +147,14 @@ static near_real nearest(const pl_manifold *m)
 }
 
 // Closes the gaps that were left: manifolds without points go, those that another bears the load of
-// stand behind the rest, where the solver does not look.
+// stand behind the rest, where the solver does not look. What stays is summed up on the way.
 static void close_gaps(plumb_world *world)
 {
     pl_narrow *narrow = &world->narrow;
     pl_manifold *m = pl_manifolds(narrow), *borne = world->internal_edges.borne.data;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     uint32_t kept = 0, borne_count = 0;
+    pl_narrow_forget_summary(narrow);
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         if (m[i].count == 0) {
             continue;
@@ -166,6 +167,7 @@ static void close_gaps(plumb_world *world)
             m[kept] = m[i];
             pairs[m[kept].pair].manifold = kept;
         }
+        pl_narrow_sum_up(narrow, &m[kept]);
         ++kept;
     }
     narrow->ends_stale |= kept != narrow->manifold_count;
@@ -247,7 +249,6 @@ bool pl_internal_edges_correct(plumb_world *world, real dt)
     }
     if (changed || s->contact_count > 0) {
         close_gaps(world);
-        pl_narrow_summarise(&world->narrow);
     }
     return true;
 }

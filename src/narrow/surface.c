@@ -202,16 +202,8 @@ void pl_surfaces_mix(plumb_world *world)
 void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
-    narrow->any_friction = narrow->any_surface = narrow->any_adhesion = false;
-    narrow->any_kinetic = false;
-    narrow->any_elastic = narrow->any_low = false;
-    narrow->overlaps = (pl_overlaps){ 0 };
+    pl_narrow_forget_summary(narrow);
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
-        narrow->any_friction |= m[i].friction > 0;
-        pl_narrow_note_restitution(narrow, m[i].restitution);
-        narrow->any_surface |= m[i].surface_speed != 0 || m[i].rolling > 0;
-        narrow->any_adhesion |= m[i].adhesion > 0;
-        narrow->any_kinetic |= (m[i].met & PL_MET_KINETIC) != 0;
-        pl_overlaps_count(&narrow->overlaps, &m[i]);
+        pl_narrow_sum_up(narrow, &m[i]);
     }
 }

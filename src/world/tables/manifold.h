@@ -225,6 +225,25 @@ static inline void pl_narrow_note_restitution(pl_narrow *narrow, near_real resti
     narrow->any_low |= !elastic && restitution > 0;
 }
 
+// The summary, for whoever goes through all manifolds anyway: from none on, one after another.
+static inline void pl_narrow_forget_summary(pl_narrow *narrow)
+{
+    narrow->any_friction = narrow->any_surface = narrow->any_adhesion = false;
+    narrow->any_kinetic = false;
+    narrow->any_elastic = narrow->any_low = false;
+    narrow->overlaps = (pl_overlaps){ 0 };
+}
+
+static inline void pl_narrow_sum_up(pl_narrow *narrow, const pl_manifold *m)
+{
+    narrow->any_friction |= m->friction > 0;
+    pl_narrow_note_restitution(narrow, m->restitution);
+    narrow->any_surface |= m->surface_speed != 0 || m->rolling > 0;
+    narrow->any_adhesion |= m->adhesion > 0;
+    narrow->any_kinetic |= (m->met & PL_MET_KINETIC) != 0;
+    pl_overlaps_count(&narrow->overlaps, m);
+}
+
 static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
 {
     return (pl_manifold *)narrow->manifolds.data;
