@@ -1,6 +1,7 @@
 // air.c - the world's air: made, filled, fed, asked.
 //
 // Reads: arguments. Writes: the air's settings, sources, cells. Cost: O(cells) to make, fill and sum it.
+#include "api/listed.h"
 #include "plumb/air.h"
 #include "air/air.h"
 #include "world/check.h"
@@ -282,13 +283,7 @@ plumb_result plumb_air_set_sources(plumb_world *world, const plumb_air_source *s
     return PLUMB_OK;
 }
 
-const plumb_air_source *plumb_air_sources(const plumb_world *world, int *count)
-{
-    if (count != NULL) {
-        *count = world != NULL ? (int)world->air.source_count : 0;
-    }
-    return world != NULL && world->air.source_count > 0 ? pl_air_sources(&world->air) : NULL;
-}
+PL_LISTED(plumb_air_source, plumb_air_sources, pl_air_sources(&world->air), world->air.source_count)
 
 //---- cells ---------------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 // Reads: world->fracture.pending. Writes: bodies, as divide.c does; events of breaking. Order: after the commands, in the order in which they
 // broke. Cost: that of plumb_body_shatter each.
 #include "api/fracture.h"
+#include "api/listed.h"
 
 #include "world/body_settings.h"
 #include "world/check.h"
@@ -89,20 +90,8 @@ plumb_result pl_breaks_run(plumb_world *world, const char *function, bool waits)
     return result;
 }
 
-const plumb_body_break *plumb_world_body_break_events(const plumb_world *world, int *count)
-{
-    const uint32_t all = world == NULL ? 0 : world->fracture.break_count;
-    if (count != NULL) {
-        *count = (int)all;
-    }
-    return all == 0 ? NULL : world->fracture.breaks.data;
-}
+PL_LISTED(plumb_body_break, plumb_world_body_break_events, world->fracture.breaks.data,
+          world->fracture.break_count)
 
-const plumb_body *plumb_world_body_break_parts(const plumb_world *world, int *count)
-{
-    const uint32_t all = world == NULL ? 0 : world->fracture.piece_count;
-    if (count != NULL) {
-        *count = (int)all;
-    }
-    return all == 0 ? NULL : world->fracture.pieces.data;
-}
+PL_LISTED(plumb_body, plumb_world_body_break_parts, world->fracture.pieces.data,
+          world->fracture.piece_count)

@@ -6,6 +6,7 @@
 //
 // Reads: pairs, manifolds, centres, solver bodies (how far each turned in the step). Writes:
 // nothing. Cost: events O(1); contacts O(pairs).
+#include "api/listed.h"
 #include "solver/solver.h"
 #include "world/island.h"
 #include "plumb/event.h"
@@ -13,16 +14,8 @@
 #include "world/rows.h"
 #include "world/wrap.h"
 
-// plumb_world_<name>_events: `number` of them at `items`; null for none.
 #define EVENTS(type, name, items, number)                                                          \
-    const type *plumb_world_##name##_events(const plumb_world *world, int *count)                  \
-    {                                                                                              \
-        const int events = world == NULL ? 0 : (int)(number);                                      \
-        if (count != NULL) {                                                                       \
-            *count = events;                                                                       \
-        }                                                                                          \
-        return events == 0 ? NULL : (const type *)(items);                                         \
-    }
+    PL_LISTED(type, plumb_world_##name##_events, items, number)
 
 EVENTS(plumb_contact_begin, begin, world->begin_events.data, world->begin_count)
 EVENTS(plumb_contact_end, end, world->end_events.data, world->end_count)

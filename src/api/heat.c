@@ -1,6 +1,7 @@
 // heat.c - heat of bodies set and asked.
 //
 // Reads: arguments, checked first. Writes: the body's record (world/heat_list.c). Cost: O(log n), to set O(n), n such records.
+#include "api/listed.h"
 #include "plumb/heat.h"
 
 #include "world/check.h"
@@ -37,14 +38,8 @@ static plumb_result open(plumb_world *world, const char *fn, plumb_body body, pl
     }
 PL_BODY_ROWS(PL_ROW_HEAT, NUMBER)
 
-const plumb_body_gone *plumb_world_body_gone_events(const plumb_world *world, int *count)
-{
-    const uint32_t all = world == NULL ? 0 : world->heats.gone_count;
-    if (count != NULL) {
-        *count = (int)all;
-    }
-    return all == 0 ? NULL : pl_heat_step_of(&world->heats)->gone.data;
-}
+PL_LISTED(plumb_body_gone, plumb_world_body_gone_events, pl_heat_step_of(&world->heats)->gone.data,
+          world->heats.gone_count)
 
 plumb_result plumb_world_heat(const plumb_world *world, plumb_heat_sums *sums)
 {

@@ -1,6 +1,7 @@
 // liquid.c - the world's liquid: made, filled, asked.
 //
 // Reads: arguments. Writes: the liquid's settings and particles. Cost: O(particles) that come or go.
+#include "api/listed.h"
 #include "plumb/liquid.h"
 #include "liquid/liquid.h"
 #include "plumb/geometry.h"
@@ -211,14 +212,8 @@ plumb_result plumb_liquid_set_phases(plumb_world *world, const plumb_liquid_phas
     return PLUMB_OK;
 }
 
-const plumb_liquid_phase *plumb_liquid_phases(const plumb_world *world, int *count)
-{
-    const uint32_t phases = world != NULL ? world->liquid.phase_count : 0;
-    if (count != NULL) {
-        *count = (int)phases;
-    }
-    return phases > 0 ? pl_liquid_phases(&world->liquid) : NULL;
-}
+PL_LISTED(plumb_liquid_phase, plumb_liquid_phases, pl_liquid_phases(&world->liquid),
+          world->liquid.phase_count)
 
 //---- particles come ------------------------------------------------------------------------------
 
@@ -512,10 +507,5 @@ int plumb_liquid_change_phase(plumb_world *world, plumb_vec2 low, plumb_vec2 hig
     return changed;
 }
 
-const plumb_particle *plumb_liquid_particles(const plumb_world *world, int *count)
-{
-    if (count != NULL) {
-        *count = world != NULL ? (int)world->liquid.count : 0;
-    }
-    return world != NULL && world->liquid.count > 0 ? pl_liquid_items(&world->liquid) : NULL;
-}
+PL_LISTED(plumb_particle, plumb_liquid_particles, pl_liquid_items(&world->liquid),
+          world->liquid.count)

@@ -1,6 +1,7 @@
 // liquid_ask.c - the world's liquid, asked: what is at a place, what a ray meets, whom it touched.
 //
 // Reads: particles, contacts of the last step. Writes: the index of particles. Cost: src/liquid/sample.c.
+#include "api/listed.h"
 #include "liquid/sample.h"
 #include "plumb/liquid.h"
 #include "world/check.h"
@@ -74,20 +75,7 @@ bool plumb_liquid_ray(plumb_world *world, plumb_vec2 from, plumb_vec2 to, plumb_
     return true;
 }
 
-const plumb_liquid_contact *plumb_liquid_contacts(const plumb_world *world, int *count)
-{
-    const uint32_t all = world == NULL ? 0 : world->liquid.contact_count;
-    if (count != NULL) {
-        *count = (int)all;
-    }
-    return all == 0 ? NULL : world->liquid.contacts.data;
-}
+PL_LISTED(plumb_liquid_contact, plumb_liquid_contacts, world->liquid.contacts.data,
+          world->liquid.contact_count)
 
-const plumb_liquid_end *plumb_liquid_ends(const plumb_world *world, int *count)
-{
-    const uint32_t all = world == NULL ? 0 : world->liquid.end_count;
-    if (count != NULL) {
-        *count = (int)all;
-    }
-    return all == 0 ? NULL : world->liquid.ends.data;
-}
+PL_LISTED(plumb_liquid_end, plumb_liquid_ends, world->liquid.ends.data, world->liquid.end_count)

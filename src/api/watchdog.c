@@ -1,6 +1,7 @@
 // watchdog.c - the public side of src/watchdog.
 //
 // Reads, writes: settings, the last alarms. Cost: O(1); switching O(entities).
+#include "api/listed.h"
 #include "watchdog/watchdog.h"
 #include "world/check.h"
 
@@ -17,14 +18,7 @@ plumb_result plumb_world_set_watchdog(plumb_world *world, bool watchdog)
     return PLUMB_OK;
 }
 
-const plumb_alarm *plumb_world_alarms(const plumb_world *world, int *count)
-{
-    const int alarms = world == NULL ? 0 : world->watchdog.count;
-    if (count != NULL) {
-        *count = alarms;
-    }
-    return alarms == 0 ? NULL : world->watchdog.alarms.data;
-}
+PL_LISTED(plumb_alarm, plumb_world_alarms, world->watchdog.alarms.data, world->watchdog.count)
 
 static const struct {
     const char *name, *unit, *text, *advice;
