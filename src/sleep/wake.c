@@ -373,9 +373,12 @@ static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, 
     return true;
 }
 
-static pl_pair woken_pair(const pl_sleep *s, const pl_keyed *woken)
+// Those of an island that was solved exactly are so again from the step in which they wake (exact/hard.c).
+static pl_pair woken_pair(plumb_world *world, const pl_keyed *woken)
 {
-    const pl_sleeping_contact *c = &pl_sleeping_contacts(s)[woken->value];
+    const pl_sleeping_contact *c = &pl_sleeping_contacts(&world->sleep)[woken->value];
+    world->solver.hard_pressed |= (c->pair.flags & PL_PAIR_PRESSED) != 0;
+    world->solver.hard_before |= (c->pair.flags & PL_PAIR_EXACT) != 0;
     return c->pair; // its manifold is not one of this step, but tells whether it had one
 }
 
@@ -396,7 +399,7 @@ static void merge_pairs(plumb_world *world, pl_by_kinds first, pl_by_kinds size)
             while (o < o_end || w < w_end) {
                 bool takes_old =
                     w == w_end || (o < o_end && pl_pair_key(old[o].a, old[o].b) < woken[w].key);
-                out[count++] = takes_old ? old[o++] : woken_pair(s, &woken[w++]);
+                out[count++] = takes_old ? old[o++] : woken_pair(world, &woken[w++]);
             }
             list->size[a][b] = count - list->first[a][b];
         }

@@ -162,8 +162,8 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     c->island = island;
     c->next = i->first_contact;
     c->fixed = fixed_piece(world, pair);
-    // A hit that lasted is over.
-    c->pair.flags &= PL_PAIR_TOUCHING | PL_PAIR_STIFF_MASK | PL_PAIR_ONE_WAY;
+    // A hit that lasted is over. What bore much still does: it is solved as it was when it wakes.
+    c->pair.flags &= PL_PAIR_TOUCHING | PL_PAIR_LOADS | PL_PAIR_ONE_WAY;
     if (manifold != NULL) {
         pl_manifold *m = steps ? &c->manifold : &c->last;
         *m = *manifold;

@@ -51,6 +51,40 @@ static void heavy_on_light_stands(void **state)
     assert_int_equal(exact, 0);
 }
 
+// [m] by which a heavy box on a light one moves in the second after it was woken, at any step of a look; it slept, and in
+// the step in which it wakes its island is solved exactly.
+static double moved_by_waking(double ratio, int steps)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material wood = sim_material(w, 0.6, 0);
+    sim_floor(w, wood);
+    sim_crate(w, 0, 0.5, 0.5, 0.5, wood);
+    plumb_body top = sim_crate(w, 0, 1.5, 0.5, 0.5, heavy_material(w, ratio));
+    sim_run(w, 240 + steps, HZ60);
+    assert_false(plumb_body_is_awake(w, top));
+    const double before = sim_y(w, top);
+    double most = 0;
+    assert_int_equal(plumb_body_wake(w, top), PLUMB_OK);
+    for (int i = 0; i < 60; ++i) {
+        sim_step(w, HZ60);
+        assert_true(i > 20 ||
+                    (plumb_body_is_awake(w, top) && plumb_world_stats(w).exact_islands > 0));
+        most = fmax(most, fabs(sim_y(w, top) - before));
+    }
+    plumb_world_destroy(w);
+    return most;
+}
+
+static void what_wakes_bears_what_it_bore(void **state)
+{
+    (void)state;
+    for (double ratio = 30; ratio < 2e5; ratio *= 10) {
+        for (int steps = 0; steps < 9; ++steps) {
+            assert_true(moved_by_waking(ratio, steps) < 1e-4);
+        }
+    }
+}
+
 // Stacks as they are in games are left to sweeps; those that sink by hundredths of a crate are not.
 static void only_what_sinks_is_solved_exactly(void **state)
 {
@@ -210,6 +244,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heavy_on_light_stands),
+        cmocka_unit_test(what_wakes_bears_what_it_bore),
         cmocka_unit_test(only_what_sinks_is_solved_exactly),
         cmocka_unit_test(what_else_there_is_does_not_show),
         cmocka_unit_test(images_go_on_the_same),
