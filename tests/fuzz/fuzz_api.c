@@ -273,6 +273,52 @@ static void look(plumb_world *w)
             abort();
         }
     }
+    const plumb_liquid_contact *wet = plumb_liquid_contacts(w, &count);
+    for (int i = 0; i < count; ++i) {
+        if (plumb_is_null(wet[i].body) == plumb_is_null(wet[i].softbody) ||
+            !isfinite(wet[i].force.x + wet[i].force.y + wet[i].torque)) {
+            abort();
+        }
+    }
+}
+
+// Water, a few hundred particles of it, and what is asked of it.
+static void flow(plumb_world *w, script *s)
+{
+    const plumb_vec2 at = vec_of(s), other = vec_of(s);
+    const plumb_particle like = { .velocity = other };
+    const plumb_real size = real_of(s);
+    plumb_liquid_hit hit;
+    plumb_liquid_sample here;
+    int count;
+    plumb_liquid_particles(w, &count);
+    switch (byte_of(s) % 8) {
+    case 0:
+        plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = size >= 0.06f ? size : 0.1f,
+                                                     .density = real_of(s),
+                                                     .viscosity = real_of(s) });
+        break;
+    case 1:
+        plumb_liquid_destroy(w);
+        break;
+    case 2:
+    case 3:
+    case 4:
+        if (count < 400) {
+            plumb_liquid_add_box(w, at, plumb_v2(at.x + 1, at.y + 0.5f), &like);
+        }
+        break;
+    case 5:
+        plumb_liquid_remove(w, at, other);
+        break;
+    default:
+        here = plumb_liquid_at(w, at);
+        if (!(here.fill >= 0) || !isfinite(here.velocity.x + here.velocity.y) ||
+            (plumb_liquid_ray(w, at, other, &hit) && !(hit.fraction >= 0 && hit.fraction <= 1))) {
+            abort();
+        }
+        break;
+    }
 }
 
 // `calls`: of how many kinds the script may choose.
@@ -396,6 +442,10 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
     case 48:
     case 49:
         *slot = solid_of(w, s).entity;
+        break;
+    case 50:
+    case 51:
+        flow(w, s);
         break;
     default:
         plumb_world_step(w, real_of(s) / 64);
