@@ -25,7 +25,6 @@
 #define SLOPE_BAND        1e-6               // ground just as steep as allowed is not too steep
 #define SAME              1e-9               // [m]
 #define SKIN_PART         0.02               // [-] of the half width
-#define NEIGHBOURS        1e-3               // [m] see narrow/one_way.c
 
 //---- the walker ---------------------------------------------------------------------------------
 
@@ -241,7 +240,7 @@ static void join_neighbours(const pl_walker *m)
     for (int i = 0; i < m->obstacle_count; ++i) {
         pl_obstacle *o = &m->obstacles[i];
         pl_round grown = o->fixed;
-        grown.radius += NEIGHBOURS;
+        grown.radius += PL_ONE_WAY_NEIGHBOURS;
         for (int k = 0; o->is_one_way && o->holds && k < m->obstacle_count; ++k) {
             const pl_obstacle *other = &m->obstacles[k];
             if (other->is_one_way && other->under_way && (other->drops || !o->is_below) &&

@@ -323,6 +323,8 @@ void pl_liquid_see_nodes(pl_liquid_grid *grid);
 
 //---- support.c -----------------------------------------------------------------------------------
 
+// What held a body until now, by the key of its entity; NULL: the liquid did not know it.
+const pl_liquid_support *pl_liquid_support_of(const pl_liquid *liquid, uint64_t key);
 // Gives the grid's bodies what held them in the last steps, and makes room for what will in this one. False when out of memory.
 bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid);
 // Bodies have got their velocities: what the liquid did not know of.

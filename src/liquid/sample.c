@@ -45,10 +45,10 @@ bool pl_liquid_file(plumb_world *world)
 {
     pl_liquid *liquid = &world->liquid;
     pl_liquid_index *index = &liquid->index;
-    const uint32_t slots = slots_for(liquid->count);
     if (index->fresh) {
         return true;
     }
+    const uint32_t slots = slots_for(liquid->count);
     if (!pl_buffer_reserve(&world->memory, &index->heads, slots * sizeof(uint32_t)) ||
         !pl_buffer_reserve(&world->memory, &index->next, liquid->count * sizeof(uint32_t))) {
         return false;

@@ -34,18 +34,18 @@ static void find_common(const pl_liquid_support *s, double held[3])
     held[2] = shorter(a[2], b[2]);
 }
 
-static const pl_liquid_support *support_of(const pl_liquid *liquid, plumb_entity entity)
+const pl_liquid_support *pl_liquid_support_of(const pl_liquid *liquid, uint64_t key)
 {
     const pl_liquid_support *all = liquid->supports.data;
     bool found = false;
-    const uint32_t at =
-        pl_find_key(all, liquid->support_count, sizeof *all, key_of(entity), &found);
+    const uint32_t at = pl_find_key(all, liquid->support_count, sizeof *all, key, &found);
     return found ? &all[at] : NULL;
 }
 
 static void recall(const pl_liquid *liquid, plumb_entity entity, double held[3])
 {
-    const pl_liquid_support *s = liquid->support_count > 0 ? support_of(liquid, entity) : NULL;
+    const pl_liquid_support *s =
+        liquid->support_count > 0 ? pl_liquid_support_of(liquid, key_of(entity)) : NULL;
     if (s != NULL) {
         find_common(s, held);
     }
@@ -79,7 +79,7 @@ static double force_of(double held, double more, double inverse, double dt)
 
 static pl_liquid_support note(const plumb_world *world, plumb_entity entity)
 {
-    const pl_liquid_support *old = support_of(&world->liquid, entity);
+    const pl_liquid_support *old = pl_liquid_support_of(&world->liquid, key_of(entity));
     pl_liquid_support s = { .key = key_of(entity) };
     if (old != NULL) {
         memcpy(s.before, old->last, sizeof s.before);

@@ -48,14 +48,6 @@ static plumb_liquid_contact soft_contact_of(const pl_liquid_grid *g, const pl_li
     };
 }
 
-static const pl_liquid_support *support_in(const pl_liquid_support *all, uint32_t count,
-                                           uint64_t key)
-{
-    bool found = false;
-    const uint32_t at = pl_find_key(all, count, sizeof *all, key, &found);
-    return found ? &all[at] : NULL;
-}
-
 static void tell_contacts(pl_liquid *liquid, const pl_keyed *order, uint32_t count)
 {
     const plumb_liquid_contact *touches = liquid->scratch->touches.data;
@@ -64,8 +56,7 @@ static void tell_contacts(pl_liquid *liquid, const pl_keyed *order, uint32_t cou
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t k = order[i].value;
         if (notes[k].wet != PL_LIQUID_DRY) {
-            const pl_liquid_support *before =
-                support_in(liquid->supports.data, liquid->support_count, notes[k].key);
+            const pl_liquid_support *before = pl_liquid_support_of(liquid, notes[k].key);
             to[liquid->contact_count] = touches[k];
             to[liquid->contact_count++].began = before == NULL || before->wet == PL_LIQUID_DRY;
         }

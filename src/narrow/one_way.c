@@ -41,9 +41,6 @@
 
 #include <math.h>
 
-// [m] one-way pieces that are nearer are one to what is under way through them, as static ones are to what slides over them.
-#define NEIGHBOURS 1e-3
-
 // Of a manifold's `disabled`, until the run is over: it holds, and did not in the last step.
 #define JUST_HELD 2u
 
@@ -232,7 +229,7 @@ static bool touch(const plumb_world *world, uint32_t p, uint32_t q)
     pl_piece_convex(world, q, &b);
     return plumb_convex_distance(&a, pl_query_frame(world, p, about), &b,
                                  pl_query_frame(world, q, about))
-               .distance <= NEIGHBOURS;
+               .distance <= PL_ONE_WAY_NEIGHBOURS;
 }
 
 static bool visit_neighbour(void *context, const pl_grid_entry *entry)

@@ -5,6 +5,9 @@
 #include "plumb/base.h"
 #include "world/tables/pair.h"
 
+// [m] one-way pieces that are nearer are one to what is under way through them, as static ones are to what slides over them.
+#define PL_ONE_WAY_NEIGHBOURS 1e-3
+
 // The pair is under way through a one-way piece: nothing may stop it until it is out.
 static inline bool pl_pair_passes(const pl_pair *pair)
 {
