@@ -314,11 +314,12 @@ WIDE_INLINE void follow(turning *t, bundle *c, const special *s, const body *a, 
         const vec aside = { x[j].x - along * n.x, x[j].y - along * n.y };
         const vec slid_a = sel2(t->with_a, aside, (vec){ zero, zero });
         const vec slid_b = sel2(t->with_b, aside, (vec){ zero, zero });
+        // A point that is absent, so far away, would get an arm as long as that, and strike what spins.
+        const vm here = turns & (t->start[j] < splat(PL_APART / 2));
         set_point(
-            c, s, j, turns, a, b,
+            c, s, j, here, a, b,
             (vec){ arm_a[j].x + t->ra * n.x + slid_a.x, arm_a[j].y + t->ra * n.y + slid_a.y },
             (vec){ arm_b[j].x - t->rb * n.x - slid_b.x, arm_b[j].y - t->rb * n.y - slid_b.y });
-        const vm here = turns & (t->start[j] < splat(PL_APART / 2));
         t->separation[j] = sel(here, apart, t->separation[j]);
         c->p[j].separation = sel(here, apart - closed(c, j, a, b), c->p[j].separation);
     }
