@@ -65,8 +65,8 @@ typedef struct plumb_contact_hit {
     plumb_vec2 point;          ///< [m] world, as of plumb_contact_begin
     plumb_vec2 normal;         ///< unit, from A to B
     plumb_real approach_speed; ///< [m/s] along the normal just before the fastest blow of the step
-    plumb_real moment;         ///< [s] of that blow since the step began: it was at `time` - dt + moment. Negative: a
-                               ///< hit of the step before that is told now
+    plumb_real moment;         ///< [s] 0..dt, of that blow since the step began: it was at `time` - dt + moment, within
+                               ///< a substep. Negative, to -dt of the step before: a hit of that step, told now
     plumb_real impulse;        ///< [N s] of the whole contact along the normal over the step, or the two
 } plumb_contact_hit;
 

@@ -362,6 +362,9 @@ static void publish_all(plumb_world *world, bool refresh)
         pair->flags = (pair->flags & ~PL_PAIR_COVERED) ^ (is != was ? PL_PAIR_TOUCHING : 0);
     }
     publish_parts(world);
+    if (!refresh) {
+        pl_hits_end(world);
+    }
 }
 
 // Pairs of a share of the list that begin or cease to touch, noted where the share begins.

@@ -24,6 +24,8 @@ plumb_vec2 pl_contact_place(const plumb_world *world, const pl_manifold *m, uint
 bool pl_hits_reserve(plumb_world *world, uint32_t count);
 // Before the pairs of a step are gone through, in their order.
 void pl_hits_begin(plumb_world *world);
+// Behind the last of them: of one pair of shapes one hit is left.
+void pl_hits_end(plumb_world *world);
 // Whether the hit of a pair that touches, or did, is to be told, with the manifold's `approach` and `hit_impulse`.
 bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches);
 void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse);

@@ -7,12 +7,16 @@
 //
 // A contact that is made in the last substep of a step may only be slowed down there, to meet in the next step: its
 // hit waits for that (pl_pending_hit), so that speed and impulse are those of the whole hit. It is told in the next step
-// whatever becomes of the pair.
+// whatever becomes of the pair: so it may be told beside another of the same shapes, of another piece or of the pair as it was
+// made anew, and the two are made one.
 //
 // Reads: pairs, manifolds, places. Writes: hit events, hits, the pairs' flags. Order: within contact_events.c.
-// Cost: O(1) a touching pair, where hits are told.
+// Cost: O(1) a touching pair, where hits are told;
+// O(hits) for each that was told of a pair which touches no more.
 #include "event/event.h"
 #include "world/state.h"
+
+#include <string.h>
 
 #define STILL_CLOSING                                                                              \
     ((real)0.01) // [-] share of the approach that is left of a contact not yet made
@@ -43,7 +47,8 @@ void pl_hits_begin(plumb_world *world)
     hits->items = hits->old;
     hits->old = items;
     hits->old_count = hits->count;
-    hits->count = hits->next = 0;
+    hits->count = hits->next = hits->late_count = 0;
+    hits->lost_count = (uint32_t)world->hit_count;
 }
 
 //---- where ---------------------------------------------------------------------------------------
@@ -167,6 +172,8 @@ static bool is_unfinished(const plumb_world *world, const pl_pair *pair, const p
 static void tell_as_it_was(plumb_world *world, const pl_pair *pair, const pl_pending_hit *hit)
 {
     const pl_pieces *p = &world->pieces;
+    ((uint32_t *)world->changed_pairs.data)[world->pending_hits.late_count++] =
+        (uint32_t)world->hit_count;
     append_pending(world, hit,
                    (plumb_contact_end){ p->shape[pair->a], p->shape[pair->b],
                                         world->bodies.entity[p->body[pair->a]],
@@ -190,9 +197,12 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
         return false;
     }
     pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+    const near_real dt = (near_real)world->last_dt;
     m->hit_impulse = m->point[0].total + (m->count > 1 ? m->point[1].total : 0);
     const bool strikes =
         (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->hit_impulse > 0;
+    // Impacts may be foreseen by a substep, or found out as late: this step has them.
+    m->struck_at = m->struck_at < 0 ? 0 : m->struck_at > dt ? dt : m->struck_at;
     pair->flags |= strikes || pending != NULL ? PL_PAIR_STRUCK : 0;
     if (pending != NULL) {
         if (pending->approach > m->approach || (m->met & PL_MET_MEASURED) == 0) {
@@ -212,4 +222,45 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
         return false;
     }
     return true;
+}
+
+//---- one a pair of shapes ------------------------------------------------------------------------
+
+static bool is_of_same(const plumb_contact_hit *x, const plumb_contact_hit *y)
+{
+    return (plumb_same(x->shape_a, y->shape_a) && plumb_same(x->shape_b, y->shape_b)) ||
+           (plumb_same(x->shape_a, y->shape_b) && plumb_same(x->shape_b, y->shape_a));
+}
+
+// Adds hit i to a later one of its shapes, or a later one to it; false: there is none but itself.
+static bool fold(plumb_world *world, uint32_t i)
+{
+    plumb_contact_hit *hits = world->hit_events.data;
+    for (uint32_t k = (uint32_t)world->hit_count; k-- > 0;) {
+        if (k == i || !is_of_same(&hits[i], &hits[k])) {
+            continue;
+        }
+        const plumb_real impulse = hits[i].impulse + hits[k].impulse;
+        if (hits[i].approach_speed > hits[k].approach_speed) {
+            hits[k] = hits[i];
+        }
+        hits[k].impulse = impulse;
+        --world->hit_count;
+        memmove(&hits[i], &hits[i + 1], ((uint32_t)world->hit_count - i) * sizeof *hits);
+        return true;
+    }
+    return false;
+}
+
+void pl_hits_end(plumb_world *world)
+{
+    const pl_pending_hits *late = &world->pending_hits;
+    const uint32_t *others = world->changed_pairs.data;
+    // From the last to the first: those that are still to be looked at stay where they are.
+    for (uint32_t k = late->late_count; k-- > 0;) {
+        fold(world, others[k]);
+    }
+    for (uint32_t i = late->lost_count; i-- > 0;) {
+        fold(world, i);
+    }
 }

@@ -94,7 +94,7 @@
 
 #define PL_STATE_PENDING_HITS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(pl_pending_hit, pending_hits.items, pending_hits.count, sizeof(pl_pending_hit), 8)                                   \
-    LEFT(pending_hits.old) LEFT(pending_hits.old_count) LEFT(pending_hits.next)
+    LEFT(pending_hits.old) LEFT(pending_hits.old_count) LEFT(pending_hits.next) LEFT(pending_hits.lost_count) LEFT(pending_hits.late_count)
 
 #define PL_STATE_SENSING(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
     ARRAY(pl_keyed, sensing.candidates, sensing.candidate_count, 0, 8)                             \

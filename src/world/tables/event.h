@@ -30,6 +30,9 @@ typedef struct pl_pending_hits {
     pl_buffer items, old; // pl_pending_hit, in order of pairs: of this step, of the one before
     uint32_t count, old_count;
     uint32_t next; // where in `old` to look first
+    // Hits told of pairs that have left the list: the first ones; of pairs that touch no more: their places are in
+    // world->changed_pairs.
+    uint32_t lost_count, late_count;
 } pl_pending_hits;
 
 typedef struct pl_overlap {
