@@ -28,7 +28,7 @@ typedef struct plumb_body_desc {
     plumb_real inertia;          ///< [kg m^2] about the centre, >= 0; 0: from the shapes, scaled to `mass`
     plumb_real gravity_scale;    ///< [-] factor on gravity; 0 means 1 (see no_gravity)
     bool no_gravity;             ///< gravity does not act on this body
-    bool fixed_rotation;         ///< the body never turns: infinite inertia
+    bool fixed_rotation;         ///< it never turns: infinite inertia; `angular_velocity` must then be 0
     bool no_sleep;               ///< it never falls asleep, nor what it touches: see plumb/sleep.h
     bool asleep;                 ///< dynamic, without velocity: it starts asleep, alone, and sleeps on while
                                  ///< shapes and joints are added before the next step. In a world without
@@ -158,7 +158,7 @@ PLUMB_API bool plumb_body_has_target(const plumb_world *world, plumb_body body);
 /// Sets the velocity [m/s] of the centre of mass. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static; not 0
 /// along a locked axis).
 PLUMB_API plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity);
-/// Sets the angular velocity [rad/s]. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static).
+/// Sets the angular velocity [rad/s]. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static; not 0 and fixed rotation).
 PLUMB_API plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body, plumb_real w);
 
 /// Adds a force [N] at a world point [m] for the next step. The same force in each step lets a body at rest

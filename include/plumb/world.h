@@ -110,7 +110,7 @@ PLUMB_API plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_wo
 /// Destroys a world and all that lives in it. Null is ignored.
 PLUMB_API void plumb_world_destroy(plumb_world *world);
 
-/// The descriptor in force, all defaults resolved.
+/// The descriptor in force, all defaults resolved but that of contact_hertz, which goes by the steps: it stays 0.
 PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
 
 /// Advances the world by dt [s], 0 <= dt <= 1. Events, spans and contact views of the step before
@@ -206,8 +206,9 @@ typedef struct plumb_stats {
     uint32_t shape_count;        ///< shapes as the user made them
     uint32_t piece_count;        ///< convex pieces of all shapes
     uint32_t pair_count;         ///< pairs whose fat boxes overlap, and contacts of sleeping bodies
-    uint32_t contact_count;      ///< pairs that touch (a manifold with at least one point), asleep or not
-    uint32_t point_count;        ///< manifold points of those
+    uint32_t contact_count;      ///< pairs of pieces that touched as the step began, asleep or not. Those that met
+                                 ///< in it, or touch on by half a millimetre, are told by plumb_world_contacts
+    uint32_t point_count;        ///< manifold points of all pairs, those about to touch included
     uint32_t color_count;        ///< colours of the constraint graph
     uint32_t overflow_count;     ///< contacts that found no colour
     uint32_t pair_rebuilds;      ///< rebuilds of the pair list since the world was made
