@@ -57,7 +57,9 @@ typedef struct plumb_joint_desc {
     bool enable_motor;         ///< revolute, prismatic, wheel: drives the value's rate
     plumb_real motor_speed;    ///< [rad/s] or [m/s]; wheel: [rad/s] of B
     plumb_real max_motor;      ///< [N m] or [N] >= 0; wheel: [N m]
-    plumb_real hertz;          ///< [1/s] >= 0 of the spring with the joint's own effective mass; 0: none.
+    plumb_real hertz;          ///< [1/s] >= 0 of the spring with the joint's own effective mass, as things were when
+                               ///< it was made: its stiffness stays, however they turn (motor: as in the
+                               ///< mean of all directions; mouse: with the mass of the moment); 0: none.
                                ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5. Alone on its body it moves
                                ///< exactly as the oscillator up to 0.09 of the substep rate, and is damped above
     plumb_real damping;        ///< [-] >= 0 damping ratio of the spring. Mouse: 0 means 1

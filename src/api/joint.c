@@ -199,8 +199,10 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     attach(world, slot, &j->a, d->body_a, place_of(world, d, d->body_a, d->body_b, d->anchor));
     attach(world, slot, &j->b, d->body_b,
            place_of(world, d, d->body_b, d->body_a, two ? d->anchor_b : d->anchor));
-    j->axis =
-        plumb_is_null(d->body_a) ? d->axis : plumb_body_local_vector(world, d->body_a, d->axis);
+    const plumb_vec2 axis = d->kind == PLUMB_DISTANCE
+                                ? plumb_vec2_unit(plumb_world_way(world, d->anchor, d->anchor_b))
+                                : d->axis;
+    j->axis = plumb_is_null(d->body_a) ? axis : plumb_body_local_vector(world, d->body_a, axis);
     j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);
     pl_joint_begin(world, j);
     if (pl_joint_classes[d->kind]->keep != NULL) {

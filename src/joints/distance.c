@@ -23,7 +23,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     pl_row length = pl_row_length(a, b, 0);
     out->row[0] = length;
     out->row[0].error -= j->desc.length;
-    pl_row_soften(&out->row[0], &j->desc);
+    pl_row_soften(&out->row[0], &j->desc, j->spring_mass);
     out->row[1] = pl_row_at_least(length, j->desc.lower);
     out->row[2] = pl_row_at_most(length, j->desc.upper);
     if (!j->desc.enable_limit) {

@@ -90,6 +90,11 @@ static double apart_of(const pl_joint *j, const end *a, const end *b)
     return square(plumb_v2(a->arm.x - back.x, a->arm.y - back.y));
 }
 
+static bool slides_freely(const plumb_joint_desc *d)
+{
+    return d->kind == PLUMB_WHEEL && !d->enable_limit && !pl_joint_has_spring(d);
+}
+
 static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joint_mark *m,
                        pl_hub *hubs)
 {
@@ -99,6 +104,10 @@ static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joi
     }
     const end a = end_of(world, &j->a, m->row_a), b = end_of(world, &j->b, m->row_b);
     const double apart = holds == PLACE_AND_TURN ? apart_of(j, &a, &b) : 0;
+    if (slides_freely(&j->desc)) { // its arms are as long as its way, which ends nowhere
+        hubs[m->row_a].share += 2 * MOST;
+        return;
+    }
     const double of_a = holds == PLACE ? hinged_share(&a, &b) : held_share(&a, &b, apart);
     const double of_b = holds == PLACE ? hinged_share(&b, &a) : held_share(&b, &a, apart);
     hubs[m->row_a].share += of_a * of_a;

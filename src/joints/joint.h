@@ -74,6 +74,10 @@ real pl_joint_motor_rate(const plumb_world *world, const pl_joint *joint);
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
 // Eighth of a turn, 0 to 7 from -pi on, in which the rotation of a body row lies.
 uint32_t pl_joint_eighth(const plumb_world *world, uint32_t row);
+// [kg] of a spring told by its frequency: what its row met as the joint was made, with the masses of now. 0: what the row meets never
+// changes, or there is no such spring.
+real pl_joint_spring_mass(const plumb_world *world, const pl_joint *joint, uint32_t row_a,
+                          uint32_t row_b);
 // The same as pl_joint_begin with the rows of its bodies known (PL_NONE: the world).
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b);
 // Impulses of a shorter step are multiplied by no more than this. What rounding and few sweeps leave of them is not in

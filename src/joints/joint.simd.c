@@ -241,7 +241,7 @@ static void tune_springs(const parts *at, const pl_joint_pattern *p, const pl_jo
             if (lanes[n].joint != PL_NONE) {
                 const pl_joint *j = &call->joints[lanes[n].joint];
                 pl_row told = { .type = PL_ROW_EQUAL };
-                pl_row_soften(&told, &j->desc);
+                pl_row_soften(&told, &j->desc, j->spring_mass);
                 fill_spring(&s->spring, n, &told, (real)s->mass[n], call->h, j->degree);
             }
         }

@@ -7,7 +7,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     pl_rows_point(out, a, b, j->target);
     out->row[2] = pl_row_angle(a, b, j->desc.rest);
     for (int i = 0; i < 3; ++i) {
-        pl_row_soften(&out->row[i], &j->desc);
+        pl_row_soften(&out->row[i], &j->desc, i < 2 ? j->spring_mass : 0);
     }
     out->row[2].most = pl_joint_bound(j->desc.max_torque);
     out->block_most = pl_joint_bound(j->desc.max_force);

@@ -20,7 +20,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
 {
     pl_rows_point(out, a, b, plumb_v2(0, 0));
     for (int i = 0; i < 2; ++i) {
-        pl_row_soften(&out->row[i], &j->desc);
+        pl_row_soften(&out->row[i], &j->desc, 0);
     }
     out->block_most = pl_joint_bound(j->desc.max_force);
     out->count = 2;

@@ -51,7 +51,7 @@ void pl_rows_spring_limits(const pl_joint *j, pl_row row, pl_row *out)
     if (pl_joint_has_spring(d)) {
         out[0] = row;
         out[0].error -= d->rest;
-        pl_row_soften(&out[0], d);
+        pl_row_soften(&out[0], d, j->spring_mass);
     }
     if (d->enable_limit) {
         out[1] = pl_row_at_least(row, d->lower);

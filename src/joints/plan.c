@@ -22,6 +22,9 @@
 #define MOVES_B 4u
 #define WIDE    8u // by the soft step
 
+#define IN_NEWTONS                                                                                 \
+    0x2000u // bit of a variant: its springs are, as told or as their mass changes (pl_joint_spring_mass)
+
 const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world)
 {
     switch (world->desc.simd_width) {
@@ -68,7 +71,7 @@ uint32_t pl_joint_variant(const plumb_joint_desc *d)
     return (uint32_t)d->kind | (d->enable_limit ? 0x100u : 0) | (d->enable_motor ? 0x200u : 0) |
            (pl_joint_has_spring(d) ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0) |
            (pl_joint_is_watched(d) ? PL_JOINT_WATCHED : 0) |
-           (pl_spring_is_in_newtons(d) ? 0x2000u : 0);
+           (pl_spring_is_in_newtons(d) ? IN_NEWTONS : 0);
 }
 
 static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t before)
@@ -130,12 +133,12 @@ static void mark_all(plumb_world *world)
 //---- patterns ------------------------------------------------------------------------------------
 
 // False for rows that only their kind knows how to make, and blocks that are springs in newtons (one.c).
-static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *out)
+static bool describe(const plumb_world *world, pl_joint *j, uint32_t variant, pl_joint_pattern *out)
 {
     pl_rows *rows = &j->rows;
     pl_joint_begin(world, j);
     pl_joint_classes[j->desc.kind]->rows(j, &j->pose_a, &j->pose_b, rows);
-    *out = (pl_joint_pattern){ .variant = pl_joint_variant(&j->desc),
+    *out = (pl_joint_pattern){ .variant = variant,
                                .rows_of_all = (uint32_t)rows->count,
                                .block = (uint8_t)rows->block };
     bool known = true;
@@ -143,13 +146,13 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
         const pl_row *r = &rows->row[i];
         if (r->type != PL_ROW_OFF) {
             known &= r->form != PL_FORM_OWN && !(i < rows->block && r->spring == PL_SPRING_NEWTONS);
+            out->newtons |= r->spring == PL_SPRING_NEWTONS;
             out->row[out->count++] = (pl_pattern_row){ .index = (uint8_t)i,
                                                        .form = (uint8_t)r->form,
                                                        .type = (uint8_t)r->type,
                                                        .spring = (uint8_t)r->spring };
         }
     }
-    out->newtons = pl_spring_is_in_newtons(&j->desc);
     out->tempered = out->block > 0 && (out->row[0].spring || out->row[0].type == PL_ROW_DRIVE ||
                                        rows->block_most < PL_UNBOUNDED);
     out->bare = j->desc.kind == PLUMB_REVOLUTE && out->count == 2 && !out->tempered;
@@ -157,17 +160,18 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
 }
 
 // PL_NONE: to be solved one by one.
-static uint32_t pattern_of(plumb_world *world, pl_joint *j)
+static uint32_t pattern_of(plumb_world *world, pl_joint *j, const pl_joint_mark *mark)
 {
     pl_joint_plan *plan = &world->joints.plan;
-    uint32_t variant = pl_joint_variant(&j->desc);
+    const bool in_newtons = pl_joint_spring_mass(world, j, mark->row_a, mark->row_b) > 0;
+    const uint32_t variant = pl_joint_variant(&j->desc) | (in_newtons ? IN_NEWTONS : 0);
     for (uint32_t i = 0; i < plan->pattern_count; ++i) {
         if (plan->patterns[i].variant == variant) {
             return i;
         }
     }
     pl_joint_pattern pattern;
-    if (plan->pattern_count == PL_JOINT_PATTERNS || !describe(world, j, &pattern)) {
+    if (plan->pattern_count == PL_JOINT_PATTERNS || !describe(world, j, variant, &pattern)) {
         return PL_NONE;
     }
     plan->patterns[plan->pattern_count] = pattern;
@@ -234,7 +238,7 @@ static void sort_out(plumb_world *world)
         }
         pl_joint *j = &pl_joint_items(joints)[i];
         bool wide = (mark->what & WIDE) != 0 && !mark->direct && is_plain(world, j, mark);
-        uint32_t pattern = wide ? pattern_of(world, j) : PL_NONE;
+        uint32_t pattern = wide ? pattern_of(world, j, mark) : PL_NONE;
         mark->color = (uint8_t)(pattern != PL_NONE ? color_of(world, mark) : PL_JOINT_COLORS);
         mark->pattern = (uint8_t)(pl_joint_is_wide(mark) ? pattern : 0);
         mark->quiet = is_quiet(j, mark);

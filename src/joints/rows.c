@@ -6,6 +6,8 @@
 
 #include "plumb/math.h"
 
+#define TAU ((real)6.2831853071795864769)
+
 // A row that pushes A at arm_a, B at arm_b. Member by member: a row that is put together and then copied is
 // read back in larger parts than it was written in, and waits for that.
 static void put_along(pl_row *row, plumb_vec2 arm_a, plumb_vec2 arm_b, plumb_vec2 n, real error,
@@ -57,12 +59,19 @@ pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length
     return row;
 }
 
-void pl_row_soften(pl_row *row, const plumb_joint_desc *desc)
+void pl_row_soften(pl_row *row, const plumb_joint_desc *desc, real mass)
 {
-    const bool newtons = pl_spring_is_in_newtons(desc);
-    row->spring = newtons ? PL_SPRING_NEWTONS : desc->hertz > 0 ? PL_SPRING_HERTZ : PL_SPRING_NONE;
-    row->stiff = newtons ? desc->stiffness : desc->hertz;
-    row->damp = newtons ? desc->damper : desc->damping;
+    if (pl_spring_is_in_newtons(desc)) {
+        row->spring = PL_SPRING_NEWTONS;
+        row->stiff = desc->stiffness, row->damp = desc->damper;
+    } else if (desc->hertz > 0 && mass > 0) {
+        const real w = TAU * desc->hertz;
+        row->spring = PL_SPRING_NEWTONS;
+        row->stiff = mass * w * w, row->damp = 2 * desc->damping * mass * w;
+    } else {
+        row->spring = desc->hertz > 0 ? PL_SPRING_HERTZ : PL_SPRING_NONE;
+        row->stiff = desc->hertz, row->damp = desc->damping;
+    }
 }
 
 pl_row pl_row_at_least(pl_row row, real lower)

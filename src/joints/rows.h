@@ -38,8 +38,8 @@ pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_v
 pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset);
 // C = |d| - length.
 pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length);
-// A spring, if the joint has one.
-void pl_row_soften(pl_row *row, const plumb_joint_desc *desc);
+// A spring, if the joint has one. `mass` [kg]: what one told by its frequency goes by; 0: what the row meets.
+void pl_row_soften(pl_row *row, const plumb_joint_desc *desc, real mass);
 // C >= 0 where C is that of `row` - lower, or upper - that of `row`.
 pl_row pl_row_at_least(pl_row row, real lower);
 pl_row pl_row_at_most(pl_row row, real upper);

@@ -6,7 +6,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
 {
     pl_rows_point(out, a, b, plumb_v2(0, 0));
     out->row[2] = pl_row_angle(a, b, j->desc.rest);
-    pl_row_soften(&out->row[2], &j->desc);
+    pl_row_soften(&out->row[2], &j->desc, 0);
     out->block = pl_joint_has_spring(&j->desc) ? 2 : 3;
     out->count = 3;
 }

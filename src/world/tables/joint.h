@@ -36,7 +36,7 @@ typedef enum pl_row_form {
 // In what a spring is told.
 typedef enum pl_row_spring {
     PL_SPRING_NONE,   // rigid
-    PL_SPRING_HERTZ,  // frequency [1/s] and damping ratio, with the mass that the row meets
+    PL_SPRING_HERTZ,  // frequency [1/s] and damping ratio, with the mass that the row meets, which does not change
     PL_SPRING_NEWTONS // stiffness [N/m] or [N m/rad], damper [N s/m] or [N m s/rad]
 } pl_row_spring;
 
@@ -117,7 +117,7 @@ struct pl_joint {
     plumb_joint entity;          // null: a free slot, whose a.next is the next one
     plumb_joint_desc desc;
     pl_joint_end a, b;
-    plumb_vec2 axis;   // unit, in A's frame (the world's without A)
+    plumb_vec2 axis;   // unit, in A's frame (the world's without A); distance: as it was made
     plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]
     real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
     plumb_vec2 told_impulse; // [N s] on B over the last step, where it is watched
@@ -127,6 +127,7 @@ struct pl_joint {
     pl_joint_pose pose_a, pose_b; // at the start of the step; first: aligned as the whole
     uint32_t slot_a, slot_b;      // solver slots
     uint32_t degree;               // see pl_joint_mark
+    real spring_mass;              // [kg] see pl_joint_spring_mass
     plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     // Solver: of joints solved one by one.
     real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
