@@ -110,7 +110,7 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     m->diagonal = d, d += 9 * (size_t)blocks;
     m->off = d, d += 9 * (size_t)m->entries;
     m->pivot = d, d += 9 * (size_t)blocks;
-    m->inverse = d, d += 9 * (size_t)blocks;
+    m->split = d, d += 9 * (size_t)blocks;
     m->work = d, d += 9 * (size_t)blocks;
     m->l = d, d += 9 * (size_t)m->factors;
     m->right = d, d += 3 * (size_t)blocks;
@@ -144,23 +144,41 @@ double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column)
 
 //---- numbers: blocks are by rows, 3 numbers a row -------------------------------------------------
 
-static void invert(const double *a, int n, double *out)
+// A pivot as L D L^T, number by number: below its diagonal what L has, on it 1 / D. An inverse by determinants is off by the square
+// of how much stiffer one way is than another, and what pulls two apart was not the same for both (DECISIONS.md).
+static void split(const double *a, int n, double *out)
+{
+    out[0] = 1 / a[0];
+    if (n == 1) {
+        return;
+    }
+    out[3] = a[3] * out[0];
+    out[4] = 1 / (a[4] - out[3] * a[3]);
+    if (n == 2) {
+        return;
+    }
+    const double between = a[7] - out[3] * a[6];
+    out[6] = a[6] * out[0];
+    out[7] = between * out[4];
+    out[8] = 1 / (a[8] - out[6] * a[6] - out[7] * between);
+}
+
+// x becomes pivot^-1 x.
+static void divide(const double *f, int n, double *x)
 {
     if (n == 1) {
-        out[0] = 1 / a[0];
-    } else if (n == 2) {
-        const double d = 1 / (a[0] * a[4] - a[1] * a[3]);
-        out[0] = a[4] * d, out[1] = -a[1] * d, out[3] = -a[3] * d, out[4] = a[0] * d;
-    } else {
-        const double x = a[4] * a[8] - a[5] * a[7], y = a[5] * a[6] - a[3] * a[8];
-        const double z = a[3] * a[7] - a[4] * a[6];
-        const double d = 1 / (a[0] * x + a[1] * y + a[2] * z);
-        out[0] = x * d, out[3] = y * d, out[6] = z * d;
-        out[1] = (a[2] * a[7] - a[1] * a[8]) * d, out[4] = (a[0] * a[8] - a[2] * a[6]) * d;
-        out[7] = (a[1] * a[6] - a[0] * a[7]) * d;
-        out[2] = (a[1] * a[5] - a[2] * a[4]) * d, out[5] = (a[2] * a[3] - a[0] * a[5]) * d;
-        out[8] = (a[0] * a[4] - a[1] * a[3]) * d;
+        x[0] *= f[0];
+        return;
     }
+    x[1] -= f[3] * x[0];
+    if (n == 2) {
+        x[1] *= f[4];
+        x[0] = x[0] * f[0] - f[3] * x[1];
+        return;
+    }
+    x[2] = (x[2] - f[6] * x[0] - f[7] * x[1]) * f[8];
+    x[1] = x[1] * f[4] - f[7] * x[2];
+    x[0] = x[0] * f[0] - f[3] * x[1] - f[6] * x[2];
 }
 
 // to -= a b^T: rows x between, columns x between.
@@ -198,30 +216,22 @@ static void factor_row(pl_soft_matrix *m, uint32_t k)
     memcpy(pivot, m->diagonal + 9 * (size_t)k, 9 * sizeof(double));
     for (uint32_t at = top; at < m->blocks; ++at) {
         const uint32_t i = m->stack[at], end = m->start[i] + m->fill[i];
-        const double *y = m->work + 9 * (size_t)i, *inverse = m->inverse + 9 * (size_t)i;
+        const double *y = m->work + 9 * (size_t)i;
         for (uint32_t p = m->start[i]; p < end; ++p) {
             const uint32_t j = m->row_of[p];
             take_product(m->work + 9 * (size_t)j, y, m->l + 9 * (size_t)p, n, m->size[j],
                          m->size[i]);
         }
         double *l = m->l + 9 * (size_t)end;
-        for (int r = 0; r < 9; ++r) {
-            l[r] = 0;
-        }
+        memcpy(l, y, 9 * sizeof(double));
         for (int r = 0; r < n; ++r) {
-            for (int c = 0; c < m->size[i]; ++c) {
-                double sum = 0;
-                for (int q = 0; q < m->size[i]; ++q) {
-                    sum += y[3 * r + q] * inverse[3 * q + c];
-                }
-                l[3 * r + c] = sum;
-            }
+            divide(m->split + 9 * (size_t)i, m->size[i], l + 3 * (size_t)r);
         }
         take_product(pivot, l, y, n, n, m->size[i]);
         m->row_of[end] = k;
         ++m->fill[i];
     }
-    invert(pivot, n, m->inverse + 9 * (size_t)k);
+    split(pivot, n, m->split + 9 * (size_t)k);
 }
 
 void pl_soft_factor(pl_soft_matrix *m)
@@ -249,14 +259,9 @@ void pl_soft_solve(const pl_soft_matrix *m)
         }
     }
     for (uint32_t i = m->blocks; i-- > 0;) {
-        const double *inverse = m->inverse + 9 * (size_t)i;
-        double *to = x + 3 * (size_t)i, sum[3] = { 0, 0, 0 };
+        double *to = x + 3 * (size_t)i, sum[3] = { to[0], to[1], to[2] };
         const int n = m->size[i];
-        for (int r = 0; r < n; ++r) {
-            for (int c = 0; c < n; ++c) {
-                sum[r] += inverse[3 * r + c] * to[c];
-            }
-        }
+        divide(m->split + 9 * (size_t)i, n, sum);
         for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
             const double *l = m->l + 9 * (size_t)p, *from = x + 3 * (size_t)m->row_of[p];
             for (int r = 0; r < m->size[m->row_of[p]]; ++r) {

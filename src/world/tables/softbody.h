@@ -108,7 +108,7 @@ typedef struct pl_soft_matrix {
     uint32_t *mark, *stack;
     uint8_t *size;           // unknowns of a block
     double *diagonal, *off;  // 9 a block
-    double *pivot, *inverse, *l, *work;
+    double *pivot, *split, *l, *work;
     double *right, *u, *tried, *slope; // 3 a block
 } pl_soft_matrix;
 
