@@ -296,8 +296,11 @@ static bool touch(const pl_soft_step *s, const pl_soft_near *near, double h, pl_
     out->nx = b->c * n[0] - b->s * n[1];
     out->ny = b->s * n[0] + b->c * n[1];
     out->gap = gap > -PUSH_OUT * h ? gap : -PUSH_OUT * h;
-    out->rx = rx - (p->radius + gap) * out->nx;
-    out->ry = ry - (p->radius + gap) * out->ny;
+    // Friction at the rim of a node turns the body, and a node has no spin that could take the same. What is moored hands
+    // that on to the world; else it acts at the node's centre, and angular momentum stays (DECISIONS.md).
+    const double rim = p->moored ? p->radius + gap : 0;
+    out->rx = rx - rim * out->nx;
+    out->ry = ry - rim * out->ny;
     const double heavy = p->heavy + (b->block == PL_NONE ? 0 : b->mass);
     out->stiffness = STIFFNESS * heavy / (h * h);
     out->friction = sqrt(o->friction * p->friction);

@@ -12,6 +12,7 @@
 #define SECTIONS 14 // of a way, by 0.618 each
 #define CREEP                                                                                      \
     2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
+#define CREEP_LEAST 1e-5 // [m/s] likewise where nothing falls: less, and passes do not end
 #define ENOUGH_OF_IT                                                                               \
     0.25 // of what is gained along the whole way, where a half is what Newton's step promises
 #define SMALL 1e-3 // of what gravity adds to velocities: what the last pass may
@@ -35,8 +36,20 @@ static void turn(pl_soft_body *b, double angle)
     b->s = b->s0 * c + b->c0 * s;
 }
 
-// Bodies and what they hold, as the substep begins, `since` [s] after the step did.
-static void see_bodies(const plumb_world *world, double since)
+// A node that a body holds. Its arm is the mean of those that it begins and ends with, as far as the body's motion is known: forces act
+// at the mean of both places, and an arm from the beginning would turn the body by itself.
+static void hold(const pl_soft_body *b, double h, pl_soft_point *p)
+{
+    double s, c;
+    pl_sincos(h * (b->w + h * b->aw / 2), &s, &c);
+    const double x = b->c * p->px - b->s * p->py, y = b->s * p->px + b->c * p->py;
+    p->rx = ((1 + c) * x - s * y) / 2, p->ry = (s * x + (1 + c) * y) / 2;
+    p->x = b->x + p->rx + h * b->w * p->ry / 2, p->y = b->y + p->ry - h * b->w * p->rx / 2;
+    p->vx = b->vx - b->w * p->ry, p->vy = b->vy + b->w * p->rx;
+}
+
+// Bodies and what they hold, as a substep of h begins, `since` [s] after the step did.
+static void see_bodies(const plumb_world *world, double since, double h)
 {
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t i = 0; i < s->body_count; ++i) {
@@ -58,10 +71,7 @@ static void see_bodies(const plumb_world *world, double since)
         if (p->body == PL_NONE) {
             continue;
         }
-        const pl_soft_body *b = &bodies_of(s)[p->body];
-        p->rx = b->c * p->px - b->s * p->py, p->ry = b->s * p->px + b->c * p->py;
-        p->x = b->x + p->rx, p->y = b->y + p->ry;
-        p->vx = b->vx - b->w * p->ry, p->vy = b->vy + b->w * p->rx;
+        hold(&bodies_of(s)[p->body], h, p);
     }
 }
 
@@ -253,7 +263,7 @@ static double moved_mass(const pl_soft_step *s)
 void pl_soft_newton(plumb_world *world, double h, int passes)
 {
     pl_soft_step *s = world->softbodies.step;
-    see_bodies(world, h * s->done);
+    see_bodies(world, h * s->done, h);
     pl_soft_feel_winds(world, h * (s->done + 0.5));
     pl_soft_turn_pushes(world, h);
     guess(world, h);
@@ -263,7 +273,7 @@ void pl_soft_newton(plumb_world *world, double h, int passes)
     const double small = SMALL * fall, told = TOLD * fall;
     const double enough = s->mass * (small * small + 1e-12);
     s->pass = 0;
-    s->creep = CREEP * fall + 1e-9;
+    s->creep = CREEP * fall > CREEP_LEAST ? CREEP * fall : CREEP_LEAST;
     bool settled = false;
     for (int round = 0; round < ROUNDS && (round == 0 || pl_soft_bind(s)); ++round) {
         const int until = s->pass + passes;

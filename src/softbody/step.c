@@ -70,9 +70,21 @@ static double mass_of(const pl_softbodies *all, const pl_softbody *item, uint32_
     return sum;
 }
 
-// Adds to the mass of all nodes.
-static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, pl_softbody_place at)
+static bool is_moored(const plumb_world *world, const pl_softbody *item, uint32_t first)
 {
+    const plumb_softbody_pin *pins = pl_softbody_pins(&world->softbodies) + first;
+    bool moored = false;
+    for (uint32_t k = 0; k < item->pins && !moored; ++k) { // PL_NONE is above all rows
+        moored = pl_body_row(world, pins[k].body) >= world->dynamic_count;
+    }
+    return moored;
+}
+
+// Adds to the mass of all nodes.
+static void gather_nodes(const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
+{
+    const pl_softbodies *all = &world->softbodies;
+    const bool moored = is_moored(world, item, at.pin);
     const pl_soft_shove *pushes = all->step->pushed ? all->step->pushes.data : NULL;
     const double mass = mass_of(all, item, at.node);
     const double heavy = (pushes != NULL ? pushes[at.node].heavy : 0) + mass;
@@ -90,7 +102,8 @@ static void gather_nodes(const pl_softbodies *all, const pl_softbody *item, pl_s
                              .friction = (double)item->friction,
                              .heavy = heavy,
                              .block = PL_NONE,
-                             .body = PL_NONE };
+                             .body = PL_NONE,
+                             .moored = moored };
     }
 }
 
@@ -130,7 +143,7 @@ static bool gather(plumb_world *world)
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
         if (!item->asleep) {
-            gather_nodes(all, item, at);
+            gather_nodes(world, item, at);
             if (!gather_pins(world, item, at)) {
                 return false;
             }

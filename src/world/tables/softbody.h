@@ -42,12 +42,13 @@ typedef struct pl_soft_point {
     double follow;         // [s] of dampers towards that, over stiffness; 0: none
     double carried;        // [kg] of liquid that goes along with it
     double friction;     // [-]
-    double rx, ry;       // [m] of one that is pinned to a body: from its centre of mass, now
+    double rx, ry;       // [m] of one that is pinned to a body: from its centre of mass, in the mean of the substep
     double px, py;       // [m] the same in the body's frame; in the world where no body holds it
     double heavy;        // [kg] all that its soft body moves: what contacts are stiff for
     uint32_t block;      // of unknowns; PL_NONE: its motion is known
     uint32_t body;       // of the list of bodies that holds it; PL_NONE
     bool pinned;
+    bool moored;         // some node of its soft body is pinned to the world, or to what nothing pushes
 } pl_soft_point;
 
 // A body that is near, or holds a node.
@@ -80,7 +81,7 @@ typedef struct pl_soft_contact {
     uint32_t point, body;
     double nx, ny;   // from the body to the node
     double gap;      // [m] as the substep begins
-    double rx, ry;   // [m] from the centre of mass to where it touches
+    double rx, ry;   // [m] from the centre of mass to where friction acts
     double stiffness, friction;
     double force;    // [N] where it was asked last
     double most;     // [N] that friction holds
