@@ -104,11 +104,10 @@ static const pl_pending_hit *find_pending(pl_pending_hits *hits, const pl_pair *
 static void keep_pending(plumb_world *world, const pl_pair *pair, const pl_manifold *m,
                          plumb_vec2 at)
 {
+    const near_real since = m->struck_at > 0 ? m->struck_at : 0; // found out a substep late at most
     ((pl_pending_hit *)world->pending_hits.items.data)[world->pending_hits.count++] =
-        (pl_pending_hit){ pair->a,     pair->b,
-                          m->approach, m->hit_impulse,
-                          m->nx,       m->ny,
-                          at,          (double)m->struck_at - (double)world->last_dt };
+        (pl_pending_hit){ pair->a, pair->b, m->approach, m->hit_impulse,
+                          m->nx,   m->ny,   at,          (double)since - (double)world->last_dt };
 }
 
 // `who`: shapes and bodies.
@@ -149,6 +148,7 @@ static plumb_vec2 place_of_hit(const plumb_world *world, const pl_manifold *m)
 void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse)
 {
     const pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+    const near_real dt = (near_real)world->last_dt; // behind it: foreseen, by less than a substep
     ((plumb_contact_hit *)world->hit_events.data)[world->hit_count++] =
         (plumb_contact_hit){ .shape_a = world->pieces.shape[pair->a],
                              .shape_b = world->pieces.shape[pair->b],
@@ -157,7 +157,7 @@ void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse)
                              .point = place_of_hit(world, m),
                              .normal = { m->nx, m->ny },
                              .approach_speed = m->approach,
-                             .moment = m->struck_at,
+                             .moment = m->struck_at < dt ? m->struck_at : dt,
                              .impulse = impulse };
 }
 
@@ -197,12 +197,9 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
         return false;
     }
     pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-    const near_real dt = (near_real)world->last_dt;
     m->hit_impulse = m->point[0].total + (m->count > 1 ? m->point[1].total : 0);
     const bool strikes =
         (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->hit_impulse > 0;
-    // Impacts may be foreseen by a substep, or found out as late: this step has them.
-    m->struck_at = m->struck_at < 0 ? 0 : m->struck_at > dt ? dt : m->struck_at;
     pair->flags |= strikes || pending != NULL ? PL_PAIR_STRUCK : 0;
     if (pending != NULL) {
         if (pending->approach > m->approach || (m->met & PL_MET_MEASURED) == 0) {
