@@ -137,14 +137,14 @@ static void keep_contacts(const pl_substep *s)
 {
     const pl_measure *m = &s->world->measure;
     const pl_contact_kernels *kernels = s->solving->step->kernels;
-    const size_t count = s->cluster->color_first[PL_COLOR_SLOTS];
-    if (!is_soft(s)) {
-        memcpy(m->classic.data, s->world->solver.classic.data,
-               pl_classic_count(&s->world->solver, s->world->narrow.manifold_count) *
-                   sizeof(pl_classic_contact));
+    const size_t count = is_soft(s)
+                             ? s->cluster->color_first[PL_COLOR_SLOTS]
+                             : pl_classic_count(&s->world->solver, s->world->narrow.manifold_count);
+    if (count == 0) { // then there may be no room for any
         return;
     }
-    if (count == 0) {
+    if (!is_soft(s)) {
+        memcpy(m->classic.data, s->world->solver.classic.data, count * sizeof(pl_classic_contact));
         return;
     }
     memcpy(copy_of(s, &m->bundles, kernels->bundle_size), s->solving->call.bundles,
