@@ -184,26 +184,34 @@ static void place_images(const plumb_world *world, pl_joint *joint, uint32_t row
     joint->pose_b.y = (real)(d.y - a.y);
 }
 
-static bool is_locked(const plumb_world *world, uint32_t row)
-{
-    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
-}
+// How a body gives way at an anchor: inverse mass and inertia, and the arm from its centre [m], in its own frame.
+typedef struct ease {
+    double mass, inertia, x, y;
+} ease;
 
-// Inverse mass that a push along (x, y), in the body's frame, meets at its anchor; `turns` is set where that changes with the
-// direction. Without a direction: the mean of all.
-static double ease_along(const plumb_world *world, const pl_joint_end *end, uint32_t row, double x,
-                         double y, bool *turns)
+static ease ease_at(const plumb_world *world, const pl_joint_end *end, uint32_t row)
 {
     if (row == PL_NONE) {
-        return 0;
+        return (ease){ 0, 0, 0, 0 };
     }
     const pl_bodies *b = &world->bodies;
-    const double arm_x = (double)(end->local.x - b->local_x[row]);
-    const double arm_y = (double)(end->local.y - b->local_y[row]);
-    const double lever = arm_x * y - arm_y * x, square = arm_x * arm_x + arm_y * arm_y;
-    const double inertia = (double)b->inv_inertia[row];
-    *turns |= square * inertia > 0;
-    return (double)b->inv_mass[row] + (x != 0 || y != 0 ? lever * lever : square / 2) * inertia;
+    return (ease){ (double)b->inv_mass[row], (double)b->inv_inertia[row],
+                   (double)(end->local.x - b->local_x[row]),
+                   (double)(end->local.y - b->local_y[row]) };
+}
+
+// What a push meets there depends on its direction.
+static bool is_uneven(const ease *e)
+{
+    return (e->x * e->x + e->y * e->y) * e->inertia > 0;
+}
+
+// Inverse mass that a push along n meets; without a direction: the mean of all.
+static double ease_along(const ease *e, plumb_vec2 n)
+{
+    const double lever = e->x * (double)n.y - e->y * (double)n.x;
+    const double square = n.x != 0 || n.y != 0 ? lever * lever : (e->x * e->x + e->y * e->y) / 2;
+    return e->mass + square * e->inertia;
 }
 
 real pl_joint_spring_mass(const plumb_world *world, const pl_joint *joint, uint32_t row_a,
@@ -212,17 +220,19 @@ real pl_joint_spring_mass(const plumb_world *world, const pl_joint *joint, uint3
     const plumb_joint_desc *d = &joint->desc;
     const bool may_turn =
         d->kind == PLUMB_DISTANCE || d->kind == PLUMB_WHEEL || d->kind == PLUMB_MOTOR;
-    if (!(d->hertz > 0) || !may_turn || is_locked(world, row_a) || is_locked(world, row_b)) {
+    if (!(d->hertz > 0) || !may_turn ||
+        (pl_joint_locks(world, row_a) | pl_joint_locks(world, row_b)) != 0) {
         return 0;
     }
-    const plumb_vec2 n = joint->axis;
+    const ease a = ease_at(world, &joint->a, row_a), b = ease_at(world, &joint->b, row_b);
+    if (!is_uneven(&b) &&
+        (d->kind == PLUMB_WHEEL || !is_uneven(&a))) { // a wheel's line lies as it does on A
+        return 0;
+    }
     const plumb_rot to_b = plumb_rot_make((real)(joint->a.start - joint->b.start));
-    const plumb_vec2 of_b = plumb_rot_apply(to_b, n);
-    bool line_turns = false, turns = false; // of a wheel the line lies as it does on A
-    const double ease = ease_along(world, &joint->a, row_a, (double)n.x, (double)n.y, &line_turns) +
-                        ease_along(world, &joint->b, row_b, (double)of_b.x, (double)of_b.y, &turns);
-    turns |= line_turns && d->kind != PLUMB_WHEEL;
-    return turns && ease > 0 ? (real)(1 / ease) : 0;
+    const double sum =
+        ease_along(&a, joint->axis) + ease_along(&b, plumb_rot_apply(to_b, joint->axis));
+    return sum > 0 ? (real)(1 / sum) : 0;
 }
 
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)

@@ -168,6 +168,8 @@ void pl_joints_tally(const pl_joint_context *context);
 void pl_joints_tally_lanes(const pl_joint_context *context);
 // What impulses of joints in lanes have done (measure.c).
 void pl_joints_measure_lanes(const pl_joint_context *context, const struct pl_measuring *m);
+// PL_BODY_LOCK_... of the body at a row (PL_NONE: the world), of those that move.
+uint32_t pl_joint_locks(const plumb_world *world, uint32_t row);
 // Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
 void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).

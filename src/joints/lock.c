@@ -6,18 +6,19 @@
 //
 // Reads: flags of bodies. Writes: rows. Cost: O(rows), in worlds that have a locked body.
 #include "world/body_settings.h"
+#include "world/joint_list.h"
 #include "joints/joint.h"
 #include "world/state.h"
 
-static uint32_t locks_of(const plumb_world *world, plumb_body body)
+uint32_t pl_joint_locks(const plumb_world *world, uint32_t row)
 {
-    uint32_t row = plumb_is_null(body) ? PL_NONE : pl_body_row(world, body);
     return row < world->dynamic_count ? world->bodies.flags[row] & PL_BODY_LOCKED : 0;
 }
 
 void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint)
 {
-    uint32_t a = locks_of(world, joint->a.body), b = locks_of(world, joint->b.body);
+    const uint32_t a = pl_joint_locks(world, pl_joint_row(world, &joint->a));
+    const uint32_t b = pl_joint_locks(world, pl_joint_row(world, &joint->b));
     for (int i = 0; (a | b) != 0 && i < joint->rows.count; ++i) {
         pl_row *r = &joint->rows.row[i];
         r->ax = pl_unlocked(a, PL_BODY_LOCK_X, r->ax);

@@ -51,17 +51,12 @@ static bool is_active(const plumb_world *world, const pl_joint *j)
                                  (is_enabled(world, j->a.body) && is_enabled(world, j->b.body)));
 }
 
-static bool is_locked(const plumb_world *world, uint32_t row)
-{
-    return row < world->dynamic_count && (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
-}
-
 // Rows without what lies along locked axes, impulses to be added up and limits that bounce are made one by one.
 static bool is_plain(const plumb_world *world, const pl_joint *j, const pl_joint_mark *mark)
 {
     return !(j->desc.break_impulse > 0) && !pl_joint_bounces(&j->desc) &&
            (world->locked_bodies == 0 ||
-            (!is_locked(world, mark->row_a) && !is_locked(world, mark->row_b)));
+            (pl_joint_locks(world, mark->row_a) | pl_joint_locks(world, mark->row_b)) == 0);
 }
 
 //---- what has changed ----------------------------------------------------------------------------
