@@ -18,9 +18,9 @@ belt("middle", 2, 2, 8, left)
 belt("lower", -2, 0, 8, right)
 body { name = "chutes", type = "static", material = steel, color = "#a0aec0",
        box { 0.2, 3, at = {6.8, 3} }, box { 0.2, 3, at = {-6.8, 1} },
-       box { 5, 0.2, at = {5, -3} }, box { 0.2, 3, at = {2.6, -1.6} }, box { 0.2, 4, at = {7.4, -1.1} } }
+       box { 6.2, 0.2, at = {4.4, -3} }, box { 0.2, 2.4, at = {1.4, -1.8} }, box { 0.2, 4, at = {7.4, -1.1} } }
 -- The bin counts what falls in; a box that is a sensor stops nothing.
-local bin = body { name = "bin", type = "static", sensor = true, box { 4.5, 2 , at = {5, -1.8} }, color = "#74b083" }
+local bin = body { name = "bin", type = "static", sensor = true, box { 5.7, 2, at = {4.4, -1.8} }, color = "#74b083" }
 
 local count = 8
 for i = 1, count do

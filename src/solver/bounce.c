@@ -222,28 +222,39 @@ static double coupling(const plumb_world *world, const pl_impact *m, uint32_t i,
            (double)b->inv_inertia * (double)m->point[i].rbn * (double)m->point[j].rbn;
 }
 
-// Friction of an impact: what stops the slip, at most mu times the normal impulse.
-static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_t j, double normal,
-                           double time)
+// Friction of an impact: what stops the slip, at most mu times the normal impulses; one row for both points, as in the sweeps
+// (friction_row in bundle.h).
+static void strike_tangents(const plumb_world *world, const pl_impact *m, const double normal[2],
+                            const pl_approach at[2])
 {
+    const double load = normal[0] + normal[1];
+    if (!(load > 0 && m->friction > 0)) {
+        return;
+    }
     const pl_solver_body *a = &pl_solver_bodies(&world->solver)[m->a];
     const pl_solver_body *b = &pl_solver_bodies(&world->solver)[m->b];
-    const pl_impact_point *p = &m->point[j];
-    double rat = (double)p->rat, rbt = (double)p->rbt;
+    const pl_impact_point *p = m->point;
+    const double share[2] = { normal[0] / load, normal[1] / load };
+    const double rat = share[0] * (double)p[0].rat + share[1] * (double)p[1].rat;
+    const double rbt = share[0] * (double)p[0].rbt + share[1] * (double)p[1].rbt;
     double slip = (double)m->nx * (double)(b->vy - a->vy) -
                   (double)m->ny * (double)(b->vx - a->vx) + rbt * (double)b->w -
                   rat * (double)a->w + (double)m->surface_speed;
     double mass = m->locked ? inverse_mass(world, m, (double)m->ny, (double)m->nx)
                             : (double)a->inv_mass + (double)b->inv_mass;
     double k = mass + (double)a->inv_inertia * rat * rat + (double)b->inv_inertia * rbt * rbt;
-    double bound = (double)m->friction * normal;
-    double impulse = k > 0 ? -slip / k : 0;
-    impulse = impulse > bound ? bound : impulse < -bound ? -bound : impulse;
-    strike(world, m, j, 0, impulse, time);
-    if (pl_solver_tallies(world)) {
-        const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
-        ((near_real *)world->solver.rubbed.data)[2 * (size_t)pair->manifold + j] +=
-            (near_real)impulse;
+    double bound = (double)m->friction * load;
+    double total = k > 0 ? -slip / k : 0;
+    total = total > bound ? bound : total < -bound ? -bound : total;
+    for (uint32_t j = 0; j < m->count; ++j) {
+        if (normal[j] > 0) {
+            strike(world, m, j, 0, share[j] * total, at[j].time);
+            if (pl_solver_tallies(world)) {
+                const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+                ((near_real *)world->solver.rubbed.data)[2 * (size_t)pair->manifold + j] +=
+                    (near_real)(share[j] * total);
+            }
+        }
     }
 }
 
@@ -289,11 +300,7 @@ bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach
             struck = true;
         }
     }
-    for (uint32_t j = 0; j < m->count && m->friction > 0; ++j) {
-        if (impulse[j] > 0) {
-            strike_tangent(world, m, j, impulse[j], at[j].time);
-        }
-    }
+    strike_tangents(world, m, impulse, at);
     return struck;
 }
 
@@ -341,10 +348,8 @@ void pl_bounce_resolve_together(plumb_world *world, pl_bounce *all, uint32_t cou
         for (uint32_t j = 0; j < all[i].impact->count; ++j) {
             if (all[i].impulse[j] > 0) {
                 note_strike(world, all[i].impact, j, &all[i].at[j], all[i].impulse[j]);
-                if (all[i].impact->friction > 0) {
-                    strike_tangent(world, all[i].impact, j, all[i].impulse[j], all[i].at[j].time);
-                }
             }
         }
+        strike_tangents(world, all[i].impact, all[i].impulse, all[i].at);
     }
 }

@@ -168,8 +168,27 @@ WIDE_INLINE void push(const bundle *c, const special *s, const point *p, body *a
     }
 }
 
-// [m/s] at which the surfaces slide at a point; `e` null: they move with their bodies.
-WIDE_INLINE vf slip_at(const bundle *c, const extra *e, const point *p, const body *a,
+// Friction of a contact: one row for both points, for these slide alike. It acts where their loads do as one. Two rows, one after the
+// other, gave the first of them what both could bear: a box that landed flat and slid tipped by the order of its corners.
+typedef struct friction_row {
+    vf share;    // [-] of the second point
+    vf rat, rbt; // [m]
+    vf mt;       // [kg]
+} friction_row;
+
+// What points that bear load0 and load1 >= 0 have together.
+WIDE_INLINE friction_row friction_row_of(const point p[2], vf load0, vf load1)
+{
+    const vf load = load0 + load1;
+    const vf share = load1 / sel(load > splat(0), load, splat(1));
+    return (friction_row){ .share = share,
+                           .rat = p[0].rat + share * (p[1].rat - p[0].rat),
+                           .rbt = p[0].rbt + share * (p[1].rbt - p[0].rbt),
+                           .mt = p[0].mt + share * (p[1].mt - p[0].mt) };
+}
+
+// [m/s] at which the surfaces slide; `e` null: they move with their bodies.
+WIDE_INLINE vf slip_at(const bundle *c, const extra *e, const friction_row *r, const body *a,
                        const body *b, bool rotation)
 {
     vf slip = c->nx * (b->vy - a->vy) - c->ny * (b->vx - a->vx);
@@ -177,7 +196,7 @@ WIDE_INLINE vf slip_at(const bundle *c, const extra *e, const point *p, const bo
         slip += e->surface_speed;
     }
     if (rotation) {
-        slip += p->rbt * b->w - p->rat * a->w;
+        slip += r->rbt * b->w - r->rat * a->w;
     }
     return slip;
 }

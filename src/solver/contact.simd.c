@@ -40,18 +40,6 @@ WIDE_INLINE void push_normal(const bundle *c, const point *p, body *a, body *b, 
     }
 }
 
-WIDE_INLINE void push_tangent(const bundle *c, const special *s, const point *p, body *a, body *b,
-                              vf impulse, bool rotation)
-{
-    vf px = -c->ny * impulse;
-    vf py = c->nx * impulse;
-    shove(a, b, s, px, py);
-    if (rotation) {
-        a->w -= a->inv_inertia * (p->rat * impulse);
-        b->w += b->inv_inertia * (p->rbt * impulse);
-    }
-}
-
 WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uint32_t count,
                                 bool friction, bool rotation, bool running, bool special_ones)
 {
@@ -193,37 +181,54 @@ WIDE_INLINE void solve_rolling(const bundle *c, const special *s, extra *e, body
     e->lr = total;
 }
 
-WIDE_INLINE void solve_tangent(const bundle *c, const special *s, const extra *e, int j, point *p,
-                               body *a, body *b, bool rotation)
+// The points rub by `total` from now on, in the shares of `r`.
+WIDE_INLINE void set_friction(vf total, const friction_row *r, const bundle *c, const special *s,
+                              point p[2], body *a, body *b, bool rotation)
 {
-    vf vt = slip_at(c, e, p, a, b, rotation);
-    vf bound = c->friction * (s != NULL ? (vf)(p->ln + s->pull[j]) : p->ln);
-    vf total = vclamp(p->lt - p->mt * vt, -bound, bound);
-    vf impulse = total - p->lt;
-    p->lt = total;
-    push_tangent(c, s, p, a, b, impulse, rotation);
+    const vf change = total - (p[0].lt + p[1].lt);
+    shove(a, b, s, -c->ny * change, c->nx * change);
+    if (rotation) {
+        a->w -= a->inv_inertia * (r->rat * total - (p[0].rat * p[0].lt + p[1].rat * p[1].lt));
+        b->w += b->inv_inertia * (r->rbt * total - (p[0].rbt * p[0].lt + p[1].rbt * p[1].lt));
+    }
+    p[1].lt = r->share * total;
+    p[0].lt = total - p[1].lt;
 }
 
-// What the contact bears from now on. It slides where no loaded point holds; what slides since this sweep bears less at once.
+// What the contact bears from now on. It slides where its points do not hold; what slides since this sweep bears less at once.
 // What bears nothing will stick if it is slow.
-WIDE_INLINE void settle_grip(bundle *c, const special *s, const extra *e, const grip *g, body *a,
-                             body *b, bool rotation)
+WIDE_INLINE void settle_grip(bundle *c, const special *s, const extra *e, const grip *g,
+                             const friction_row *r, vf total, vf bound, body *a, body *b,
+                             bool rotation)
 {
-    const vf zero = splat(0), slip = slip_at(c, e, &c->p[0], a, b, rotation);
-    const vf load[2] = { c->p[0].ln + s->pull[0], c->p[1].ln + s->pull[1] };
-    const vm yields = (vabs(c->p[0].lt) >= c->friction * load[0]) &
-                      (vabs(c->p[1].lt) >= c->friction * load[1]) &
-                      (c->p[0].lt * c->p[1].lt >= zero);
-    const vm loaded = load[0] + load[1] > zero;
-    const vm slides = selm(loaded, yields, vabs(slip) > splat(PL_SLIDES_FROM));
-    const vm starts = loaded & slides & (c->friction > g->slides);
+    const vf zero = splat(0), load = c->p[0].ln + s->pull[0] + (c->p[1].ln + s->pull[1]);
+    const vm slow = vabs(slip_at(c, e, r, a, b, rotation)) <= splat(PL_SLIDES_FROM);
+    const vm slides = selm(load > zero, vabs(total) >= bound, ~slow);
+    const vm starts = (load > zero) & slides & (c->friction > g->slides);
     c->friction = sel(slides, g->slides, g->sticks);
-    for (int j = 0; j < 2 && any(starts); ++j) {
-        point *p = &c->p[j];
-        const vf bound = c->friction * load[j];
-        const vf total = sel(starts, vclamp(p->lt, -bound, bound), p->lt);
-        push_tangent(c, s, p, a, b, total - p->lt, rotation);
-        p->lt = total;
+    if (any(starts)) {
+        const vf most = c->friction * load;
+        set_friction(sel(starts, vclamp(total, -most, most), total), r, c, s, c->p, a, b, rotation);
+    }
+}
+
+// `g` null: slides as it holds.
+WIDE_INLINE void solve_friction(bundle *c, const special *s, const extra *e, const grip *g, body *a,
+                                body *b, bool rotation)
+{
+    point *p = c->p;
+    vf load0 = p[0].ln, load1 = p[1].ln;
+    if (s != NULL) {
+        load0 += s->pull[0];
+        load1 += s->pull[1];
+    }
+    const friction_row r = friction_row_of(p, load0, load1);
+    const vf bound = c->friction * (load0 + load1);
+    const vf wish = p[0].lt + p[1].lt - r.mt * slip_at(c, e, &r, a, b, rotation);
+    const vf total = vclamp(wish, -bound, bound);
+    set_friction(total, &r, c, s, p, a, b, rotation);
+    if (g != NULL) {
+        settle_grip(c, s, e, g, &r, total, bound, a, b, rotation);
     }
 }
 
@@ -252,12 +257,11 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
             if (running && rotation) {
                 solve_rolling(c, s, e, &a, &b);
             }
-            solve_tangent(c, s, e, 0, &c->p[0], &a, &b, rotation);
-            solve_tangent(c, s, e, 1, &c->p[1], &a, &b, rotation);
+            const grip *g = NULL;
             if (special_ones && !soft && call->grips != NULL) {
-                const grip *g = (const grip *)call->grips + k;
-                settle_grip(c, s, e, g, &a, &b, rotation);
+                g = (const grip *)call->grips + k;
             }
+            solve_friction(c, s, e, g, &a, &b, rotation);
         }
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);

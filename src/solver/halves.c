@@ -9,7 +9,7 @@
 void pl_soft_share(const plumb_world *world, uint32_t row, uint32_t slot)
 {
     near_real *kicked = (near_real *)world->solver.kicked.data + 4 * (size_t)slot;
-    kicked[3] = row < world->dynamic_count ? HALF : 0;
+    kicked[3] = row < world->dynamic_count ? -HALF : 0; // whole until it is pushed
 }
 
 void pl_soft_halve(pl_substep *s)

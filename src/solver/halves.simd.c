@@ -10,9 +10,10 @@
 //
 // A hit is no force: what it did is not to be expected again. Contacts take a push back that is given whole in the
 // sweep that solves them and what is left in the one that relaxes; of two halves each sweep would leave some. (A box of
-// 100 m/s against a wall of six went back 4 m.) So the kick is whole after a hit, and before the first push. What joints push
-// is no hit. Joints know what of their impulses comes behind the drift, of either body (joints/one.c, spring.c), and some
-// assemblies of theirs are always kicked whole (joints/assembly.c).
+// 100 m/s against a wall of six went back 4 m.) So the kick is whole after a hit, and before the first push of a step; once
+// it is in halves it stays so where nothing pushes, as contacts that let go push again. What joints push is no hit. Joints
+// know what of their impulses comes behind the drift, of either body (joints/one.c, spring.c), and some assemblies of theirs are
+// always kicked whole (joints/assembly.c).
 //
 // Reads: solver bodies, motions. Writes: solver bodies. Order: behind impacts, before the sweeps; the drift. Cost: two passes
 // over the bodies of a substep; washer, W = 8: 20.5 and 28.3 million instructions (a body at a time 35.8 and 42.1).
@@ -25,6 +26,10 @@
 // Squares of a push that is a hit, over those of the forces' kick and of the body's speed.
 #define HIT_FORCES ((near_real)16)
 #define HIT_SPEED  ((near_real)(1.0 / 64))
+
+// Square of a push that is none, over that of the forces' kick. What contacts give and take back leaves a rounding or nothing at
+// all, by the side from which a body came: mirrored boxes parted by up to 8 m/s within a second (tests/stability/test_mirror.c).
+#define NO_PUSH ((near_real)1e-8)
 
 // Reals of a solver body and of its motion; of what it is kicked by.
 enum { BODY = sizeof(pl_solver_body) / sizeof(near_real), KICK = 4 };
@@ -114,8 +119,10 @@ WIDE_INLINE void halve(const pl_passage *p, const block *b)
     const kick force = times(splat(p->h), kick_of(acceleration)), pushed = minus(v, u);
     const kick was = minus(u, force);
     const vf zero = splat(0), square = square_of(pushed), share = vabs(before[3]);
-    vm hit = ~(square > zero) | ((square > splat(HIT_FORCES) * square_of(force)) &
-                                 (square > splat(HIT_SPEED) * square_of(was)));
+    const vf weight = square_of(force);
+    const vm flew = ~(square > splat(NO_PUSH) * weight) & ~(before[3] > zero);
+    vm hit = flew |
+             ((square > splat(HIT_FORCES) * weight) & (square > splat(HIT_SPEED) * square_of(was)));
     if (any(hit) && p->world->joints.live > 0) {
         hit = not_only_tied(p->world, b, hit);
     }
@@ -155,13 +162,14 @@ WIDE_INLINE void drift(const pl_passage *p, const block *b)
     if (any(leaves) && p->world->joints.live > 0) {
         leaves = not_only_tied(p->world, b, leaves);
     }
-    const vm flies = ~halved & (square_of(kept) == zero) & (kept.w == zero);
+    const vm flies = ~halved & (square_of(kept) <= splat(NO_PUSH) * square_of(force));
+    const vm turns = ~halved & (kept.w * kept.w <= splat(NO_PUSH) * force.w * force.w);
     kick way = times(h, v);
     const kick more = plus(way, times(h * over, push));
     const kick less = minus(way, times(splat(HALF) * h, force));
     way.x = sel(leaves, more.x, sel(flies, less.x, way.x));
     way.y = sel(leaves, more.y, sel(flies, less.y, way.y));
-    way.w = sel(leaves, more.w, sel(flies, less.w, way.w));
+    way.w = sel(leaves, more.w, sel(turns, less.w, way.w));
     give(b->body + 4, BODY, (vf[4]){ gone[0] + way.x, gone[1] + way.y, gone[2] + way.w, gone[3] });
     give(b->body, BODY, (vf[4]){ now.x, now.y, now.w, velocity[3] });
 }

@@ -159,10 +159,11 @@ WIDE_PART void resolve(const bundle *c, const special *s, extra *e, bounce *r, s
         r->speed = sel(fastest, at[j].speed, r->speed);
         r->time = sel(fastest, splat(call->since) + at[j].time, r->time);
     }
+    const friction_row both = friction_row_of(c->p, impulse[0], impulse[1]);
+    const vf bound = c->friction * (impulse[0] + impulse[1]);
+    const vf total = vclamp(-both.mt * slip_at(c, e, &both, &a->now, &b->now, true), -bound, bound);
     for (int j = 0; j < 2; ++j) {
-        const vf bound = c->friction * impulse[j];
-        const vf along = -c->p[j].mt * slip_at(c, e, &c->p[j], &a->now, &b->now, true);
-        const vf along_t = vclamp(along, -bound, bound);
+        const vf along_t = (j == 0 ? splat(1) - both.share : both.share) * total;
         strike(c, s, j, a, b, zero, along_t, at[j].time);
         if (e != NULL) {
             e->total[j] += impulse[j];

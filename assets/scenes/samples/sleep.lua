@@ -1,11 +1,11 @@
 -- sleep.lua - a chain of bodies on a hinge, a wall and a pile fall asleep. Then a ball wakes the wall alone, and a floor
 -- is taken away from under the pile, which falls.
 scene { title = "Sleep", duration = 14 }
-camera { fit = {{-10, -4}, {10, 6}}, at = 5.3 }
+camera { fit = {{-10, -4}, {12, 6}}, at = 5.3 }
 body { type = "static", box { 12, 1, at = {-4, -0.5} }, box { 30, 1, at = {0, -3.5} } }
-local floor = body { name = "floor", type = "static", box { 4, 0.4 }, at = {6, -0.2}, color = "#c08a4a" }
+local floor = body { name = "floor", type = "static", box { 4, 0.4 }, at = {9, -0.2}, color = "#c08a4a" }
 for i = 1, 5 do body { name = "wall" .. i, box { 0.6, 0.6 }, at = {-4, 0.6 * i - 0.3}, color = 1 } end
-for i = 1, 3 do body { name = "pile" .. i, box { 0.8, 0.8 }, at = {6, 0.8 * i - 0.4}, color = 2 } end
+for i = 1, 3 do body { name = "pile" .. i, box { 0.8, 0.8 }, at = {9, 0.8 * i - 0.4}, color = 2 } end
 local last = world
 for i = 1, 5 do
     local link = body { name = "link" .. i, capsule { 0.5, 0.08 }, at = {-8 + 0.5 * i - 0.25, 5}, angular_damping = 1, color = 3 }

@@ -1,6 +1,6 @@
 -- tangent_speed.lua - a chain whose surface runs accelerates what lies on it: discs, heavy against rolling, come onto a belt of
 -- 8 m/s piece after piece and leave it at that speed; boxes on a belt of 2 m/s have it after v / (mu g).
-scene { title = "Surfaces that run", duration = 8 }
+scene { title = "Surfaces that run", duration = 7.5 }
 camera { fit = {{-13, -1.5}, {19, 6}}, at = 2.6, trail = 1 }
 local belts = {}
 for i = 1, 3 do belts[i] = material { friction = 0.6, surface_speed = ({ 2, 4, 8 })[i] } end
