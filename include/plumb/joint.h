@@ -26,7 +26,8 @@ PLUMB_BEGIN
     X(GEAR,      gear,      "turns, or a turn and a travel, keep a ratio")                          \
     X(PULLEY,    pulley,    "length of A's rope + ratio * length of B's rope is constant")          \
     X(RATCHET,   ratchet,   "B turns one way only, relative to A; falls back by less than a tooth") \
-    X(FRICTION,  friction,  "resists motion of B over A by bounded force and torque")
+    X(FRICTION,  friction,  "resists motion of B over A by bounded force and torque")               \
+    X(CABLE,     cable,     "a rope from rim to rim, which it winds on and off; it only pulls")
 // clang-format on
 
 typedef enum plumb_joint_kind {
@@ -41,9 +42,10 @@ typedef enum plumb_joint_kind {
 typedef struct plumb_joint_desc {
     plumb_joint_kind kind;
     plumb_body body_a, body_b; ///< not both null, not the same; null: the world
-    plumb_vec2 anchor;         ///< [m] the common point; distance, pulley: on A; mouse: the point of B; gear: not
-                               ///< used, it acts at the centres of mass, which are told as its anchors
-    plumb_vec2 anchor_b;       ///< [m] distance, pulley: on B
+    plumb_vec2 anchor;         ///< [m] the common point; distance, pulley: on A; mouse: the point of B; cable: centre of
+                               ///< the rim on A; gear: not used, it acts at the centres of mass, which are told as its
+                               ///< anchors
+    plumb_vec2 anchor_b;       ///< [m] distance, pulley: on B; cable: centre of the rim on B
     plumb_vec2 ground_a;       ///< [m] pulley: the wheel of A's rope, on the world
     plumb_vec2 ground_b;       ///< [m] pulley: the wheel of B's rope, on the world
     plumb_vec2 axis;           ///< prismatic, wheel: direction of the value, any length; {0}: x (wheel: up).
@@ -69,7 +71,18 @@ typedef struct plumb_joint_desc {
                                ///< motor: [N/m] in all directions; motor besides, with the same number, [N m/rad]
     plumb_real damper;         ///< [N s/m] or [N m s/rad] >= 0 with stiffness, or alone: a dashpot
     plumb_real rest;           ///< [rad] or [m] value at which the spring is at rest; motor: wanted angle
-    plumb_real length;         ///< [m] distance: of rod or spring; 0 means as things are
+    plumb_real length;         ///< [m] distance: of rod or spring; 0 means as things are. Cable: of what is free between
+                               ///< the rims when it is made and taut; longer than things are: it is slack; 0: taut
+    plumb_real radius_a;       ///< [m] cable: of the rim on A. Look from A to B: > 0 the rope leaves it on the left, < 0 on
+                               ///< the right, 0: it is tied to the point. So with A on the left of the picture and B on the
+                               ///< right both > 0 is a rope over the tops of two wheels, both < 0 one beneath (a belt has
+                               ///< one of each), and unlike signs a rope that crosses from the top of one to the bottom of
+                               ///< the other; of A above B, > 0 hangs down at the right of the wheel. It does not slip:
+                               ///< a wheel takes up radius * turn, and the span leaves it where it touches. Rims are round
+                               ///< and never run out: as many turns as come, and no end that comes off the rim. Where one rim
+                               ///< comes to lie within the other (or on it, of a rope that crosses) no line touches both: the
+                               ///< rope is loose until they part, and has slipped where it would be too short then
+    plumb_real radius_b;       ///< [m] cable: of the rim on B, with the side as seen from A to B too
     plumb_real ratio;          ///< [-] gear: turn of A + ratio * turn or travel [m] of B is constant; pulley,
                                ///< > 0; 0 means 1
     plumb_real pitch;          ///< [rad] ratchet: a tooth, not 0; negative: B turns clockwise only
@@ -149,14 +162,15 @@ PLUMB_API plumb_result plumb_joint_settings(const plumb_world *world, plumb_join
                                             plumb_joint_desc *desc);
 /// The joint's coordinate now. Revolute, weld, motor, friction, ratchet: [rad] turn of B relative to A
 /// since the joint was made, full turns included. Prismatic, wheel: [m] travel along the axis.
-/// Distance, mouse: [m] length. Gear, pulley: the sum that is kept, less what it was.
+/// Distance, mouse: [m] length. Gear, pulley: the sum that is kept, less what it was. Cable: [m] what is free between the
+/// rims and what they have wound on since it was made: `length` where it is taut, less where it is slack.
 PLUMB_API plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint);
 /// Rate of that coordinate now, from the velocities of the bodies: [rad/s] or [m/s] as the value. O(1).
 PLUMB_API plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint);
 /// [rad/s] at which B turns relative to A. 0 on an error: E_HANDLE, E_STATE (a kind that does not turn about a point:
 /// prismatic, distance, mouse, gear, pulley).
 PLUMB_API plumb_real plumb_joint_turn_rate(const plumb_world *world, plumb_joint joint);
-/// [m/s] along the axis (prismatic, wheel) or of the length (distance, mouse). 0 on an error: E_HANDLE,
+/// [m/s] along the axis (prismatic, wheel) or of the length (distance, mouse, cable). 0 on an error: E_HANDLE,
 /// E_STATE (other kinds).
 PLUMB_API plumb_real plumb_joint_travel_rate(const plumb_world *world, plumb_joint joint);
 /// [m] by how far the rigid part is apart (angles count by the radian), 0 when it has none.
@@ -181,11 +195,13 @@ PLUMB_API int plumb_body_joints(const plumb_world *world, plumb_body body, plumb
 /// that stand where they stood. All of {0} is not valid: read one, keep it, give it back.
 typedef struct plumb_joint_memory {
     plumb_vec2 anchor_a, anchor_b; ///< [m] in the frames of A and B; the world's: in the world
-    plumb_vec2 axis;               ///< unit, in A's frame; {0}: the kind has none
-    plumb_vec2 offset;             ///< [m] motor: where B's anchor is to be, in A's frame
+    plumb_vec2 axis;               ///< unit, in A's frame; {0}: the kind has none. Cable: its span as it was made
+    plumb_vec2 offset;             ///< [m] motor: where B's anchor is to be, in A's frame. Cable: x: what has slipped
+                                   ///< [m], y: 1 where no line touches both rims, else 0
     plumb_real start_a, start_b;   ///< [rad] angles of the bodies when the joint was made
     int32_t turns_a, turns_b;      ///< full turns of each since
-    plumb_real kept;               ///< gear, pulley: the sum that is kept; ratchet: [rad] its tooth
+    plumb_real kept;               ///< gear, pulley: the sum that is kept; ratchet: [rad] its tooth; cable: [rad] by which
+                                   ///< its span has turned
     plumb_real substep;            ///< [s] >= 0, to which the impulses belong; 0: there are none
     plumb_real impulses[6];        ///< [N s], [N m s] with which the next step starts
 } plumb_joint_memory;

@@ -70,6 +70,8 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
         { "damper", d->damper != 0, PL_JOINT_SPRING },
         { "rest", d->rest != 0, PL_JOINT_REST },
         { "length", d->length != 0, PL_JOINT_LENGTH },
+        { "radius_a", d->radius_a != 0, PL_JOINT_RADII },
+        { "radius_b", d->radius_b != 0, PL_JOINT_RADII },
         { "ratio", d->ratio != 0, PL_JOINT_RATIO },
         { "pitch", d->pitch != 0, PL_JOINT_PITCH },
         { "max_force", d->max_force != 0, PL_JOINT_FORCE },
@@ -193,20 +195,19 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     const plumb_joint none = PLUMB_NULL_INIT;
     uint32_t slot = take_slot(&world->joints);
     pl_joint *j = &pl_joint_items(&world->joints)[slot];
-    bool two = (pl_joint_classes[d->kind]->has & PL_JOINT_TWO_ANCHORS) != 0;
+    const pl_joint_class *kind = pl_joint_classes[d->kind];
+    bool two = (kind->has & PL_JOINT_TWO_ANCHORS) != 0;
     memset(j, 0, sizeof *j); // padding, too: it is saved
     pl_joint_copy_desc(&j->desc, d);
     attach(world, slot, &j->a, d->body_a, place_of(world, d, d->body_a, d->body_b, d->anchor));
     attach(world, slot, &j->b, d->body_b,
            place_of(world, d, d->body_b, d->body_a, two ? d->anchor_b : d->anchor));
-    const plumb_vec2 axis = d->kind == PLUMB_DISTANCE
-                                ? plumb_vec2_unit(plumb_world_way(world, d->anchor, d->anchor_b))
-                                : d->axis;
+    const plumb_vec2 axis = kind->direction != NULL ? kind->direction(world, d) : d->axis;
     j->axis = plumb_is_null(d->body_a) ? axis : plumb_body_local_vector(world, d->body_a, axis);
     j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);
     pl_joint_begin(world, j);
-    if (pl_joint_classes[d->kind]->keep != NULL) {
-        j->sum = pl_joint_classes[d->kind]->keep(j, &j->pose_a, &j->pose_b);
+    if (kind->keep != NULL) {
+        j->sum = kind->keep(j, &j->pose_a, &j->pose_b);
     }
     ++world->joints.live;
     pl_joint_disturb(world, j);

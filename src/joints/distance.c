@@ -18,6 +18,11 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
     return PLUMB_OK;
 }
 
+static plumb_vec2 direction(const plumb_world *world, const plumb_joint_desc *d)
+{
+    return plumb_vec2_unit(plumb_world_way(world, d->anchor, d->anchor_b));
+}
+
 static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)
 {
     pl_row length = pl_row_length(a, b, 0);
@@ -40,6 +45,7 @@ const pl_joint_class pl_joint_distance = {
     .has = PL_JOINT_LIMIT | PL_JOINT_SPRING | PL_JOINT_TWO_ANCHORS | PL_JOINT_TRAVELS |
            PL_JOINT_LENGTH,
     .check = check,
+    .direction = direction,
     .rows = rows,
     .value = pl_value_distance,
     .slope = pl_slope_distance,

@@ -29,13 +29,15 @@
 typedef struct end {
     double inv_mass, inv_inertia;
     plumb_vec2 arm; // [m] in its own frame
+    double rim;     // [m] of a cable: by how much its push passes the anchor
 } end;
 
-static end end_of(const plumb_world *world, const pl_joint_end *e, uint32_t row)
+static end end_of(const plumb_world *world, const pl_joint_end *e, uint32_t row, plumb_real rim)
 {
     const pl_bodies *b = &world->bodies;
     return (end){ (double)b->inv_mass[row], (double)b->inv_inertia[row],
-                  plumb_v2(e->local.x - b->local_x[row], e->local.y - b->local_y[row]) };
+                  plumb_v2(e->local.x - b->local_x[row], e->local.y - b->local_y[row]),
+                  (double)rim };
 }
 
 static double square(plumb_vec2 v)
@@ -52,11 +54,17 @@ static double held_share(const end *self, const end *other, double apart)
     return k < 1e12 ? k / (1 + k) : 1;
 }
 
+// [m^2] twice the square of the lever, in the mean of all directions.
+static double lever_of(const end *e)
+{
+    return square(e->arm) + 2 * e->rim * e->rim;
+}
+
 // The same of what holds a point: k in the mean of all directions, for the bodies turn.
 static double hinged_share(const end *self, const end *other)
 {
-    const double of_self = 2 * self->inv_mass + square(self->arm) * self->inv_inertia;
-    const double of_other = 2 * other->inv_mass + square(other->arm) * other->inv_inertia;
+    const double of_self = 2 * self->inv_mass + lever_of(self) * self->inv_inertia;
+    const double of_other = 2 * other->inv_mass + lever_of(other) * other->inv_inertia;
     return of_self > 0 ? of_self / (of_self + of_other) : 0;
 }
 
@@ -75,6 +83,8 @@ static what_holds held_by(const plumb_joint_desc *d)
         return PLACE;
     case PLUMB_MOTOR: // rigid and without a bound it is a weld
         return sprung || d->max_force > 0 ? NOTHING : d->max_torque > 0 ? PLACE : PLACE_AND_TURN;
+    case PLUMB_CABLE:
+        return PLACE;
     case PLUMB_DISTANCE:
         return sprung ? NOTHING : PLACE;
     default:
@@ -102,7 +112,8 @@ static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joi
     if (holds == NOTHING || m->row_a >= world->dynamic_count || m->row_b >= world->dynamic_count) {
         return;
     }
-    const end a = end_of(world, &j->a, m->row_a), b = end_of(world, &j->b, m->row_b);
+    const end a = end_of(world, &j->a, m->row_a, j->desc.radius_a);
+    const end b = end_of(world, &j->b, m->row_b, j->desc.radius_b);
     const double apart = holds == PLACE_AND_TURN ? apart_of(j, &a, &b) : 0;
     if (slides_freely(&j->desc)) { // its arms are as long as its way, which ends nowhere
         hubs[m->row_a].share += 2 * MOST;

@@ -26,7 +26,8 @@ enum {
     PL_JOINT_FORCE = 8192,
     PL_JOINT_TORQUE = 16384,
     PL_JOINT_REST = 32768,
-    PL_JOINT_CENTRAL = 65536 // acts at the centres of its bodies, whatever anchor it was given
+    PL_JOINT_CENTRAL = 65536, // acts at the centres of its bodies, whatever anchor it was given
+    PL_JOINT_RADII = 131072
 };
 
 typedef struct pl_joint_class {
@@ -34,6 +35,8 @@ typedef struct pl_joint_class {
     unsigned has; // PL_JOINT_...
     // Checks what only this kind has, and resolves its defaults; null: nothing to do.
     plumb_result (*check)(const plumb_world *world, const char *function, plumb_joint_desc *desc);
+    // The axis of what has none in its descriptor, as it is made; null: that of the descriptor.
+    plumb_vec2 (*direction)(const plumb_world *world, const plumb_joint_desc *desc);
     // The rows at these poses. Count and block must not change in the life of a joint unless the
     // user changes the joint.
     void (*rows)(const pl_joint *joint, const pl_joint_pose *a, const pl_joint_pose *b,

@@ -1,7 +1,7 @@
 // plan.c - which joints are solved several at a time, and in what order.
 //
 // Joints get colours so that no body that moves has two of one colour, and within a colour those of
-// one pattern fill the lanes of bundles (group.c). Kinds with rows of their own form (gear, pulley), and
+// one pattern fill the lanes of bundles (group.c). Kinds with rows of their own form (gear, pulley, cable), and
 // what finds no colour, are solved one by one. Both follow from the joints there are, in the order of
 // their slots, and from which of their bodies move: never from the width, so that widths give the
 // same bits, nor from the past, so that a plan can be kept until one of these changes. The colours of

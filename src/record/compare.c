@@ -142,7 +142,8 @@ static uint32_t find_section(const comparison *c, const char *table, const char 
 #define TUNING_MEMBER(name, initial) MEMBER(pl_body_settings, name)
 #define CHARACTER_MEMBER(path)       MEMBER(pl_character, path)
 
-static const pl_member joint_members[] = { PL_STATE_JOINT(JOINT_MEMBER) };
+static const pl_member joint_members[] = { PL_STATE_JOINT(JOINT_MEMBER)
+                                               PL_STATE_CABLE(JOINT_MEMBER) };
 static const pl_member character_members[] = { PL_STATE_CHARACTER(CHARACTER_MEMBER) };
 static const pl_member settings_members[] = { PL_BODY_ROWS(PL_ROW_RECORD, TUNING_MEMBER) };
 static const pl_member target_members[] = { MEMBER(pl_target, x) MEMBER(pl_target, y)

@@ -32,8 +32,9 @@
 
 #define PL_JOINT_DESC_ROWS(R, X)                                                                         \
     R(X, OWN, VEC2, anchor, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO,                               \
-      "the common point; distance, pulley: on A; mouse: the point of B")                            \
-    R(X, OWN, VEC2, anchor_b, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO, "distance, pulley: on B")   \
+      "the common point; distance, pulley: on A; mouse: the point of B; cable: centre of A's rim")   \
+    R(X, OWN, VEC2, anchor_b, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO,                             \
+      "distance, pulley: on B; cable: centre of B's rim")                                           \
     R(X, OWN, VEC2, ground_a, UNSAID, "m", ANY, 0, NO_ZERO, "pulley: the wheel of A's rope")        \
     R(X, OWN, VEC2, ground_b, UNSAID, "m", ANY, 0, NO_ZERO, "pulley: the wheel of B's rope")        \
     R(X, OWN, VEC2, axis, UNSAID, "1", ANY, 0, NO_ZERO,                                             \
@@ -62,7 +63,11 @@
     R(X, STATE, REAL, rest, UNSAID, "rad or m", ANY, 0, NO_ZERO,                                    \
       "value at which the spring is at rest")                                                       \
     R(X, STATE, REAL, length, UNSAID, "m", FROM(0, NO_END), 0, NO_ZERO,                             \
-      "distance: of rod or spring; 0: as things are")                                               \
+      "distance: of rod or spring; cable: of its span; 0: as things are")                           \
+    R(X, OWN, REAL, radius_a, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO,                             \
+      "cable: of A's rim; > 0: to B it runs on the left, < 0: on the right; 0: it is tied there")   \
+    R(X, OWN, REAL, radius_b, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO,                             \
+      "cable: of B's rim, likewise")                                                                \
     R(X, STATE, REAL, ratio, UNSAID, "1", ANY, 0, NO_ZERO, "gear, pulley: 0 means 1")               \
     R(X, STATE, REAL, pitch, UNSAID, "rad", ANY, 0, NO_ZERO, "ratchet: a tooth")                    \
     R(X, STATE, REAL, max_force, UNSAID, "N", FROM(0, NO_END), 0, NO_ZERO,                          \

@@ -125,6 +125,11 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
         char *at = members;
         PL_STATE_JOINT(COPY)
         pl_digest_add(digest, members, sizeof members);
+        if (item->desc.kind == PLUMB_CABLE) {
+            at = members;
+            PL_STATE_CABLE(COPY)
+            pl_digest_add(digest, members, (size_t)(at - members));
+        }
     }
 }
 

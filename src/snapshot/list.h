@@ -265,6 +265,9 @@
     X(b.body) X(b.next) X(b.local) X(b.start) X(b.turns)                                           \
     X(axis) X(target) X(sum) X(impulse) X(h)
 
+// What of them is 0 but of a cable, and of that alone hashed: hashes without cables are what they were before there were any.
+#define PL_STATE_CABLE(X) X(desc.radius_a) X(desc.radius_b)
+
 // The same of a character.
 #define PL_STATE_CHARACTER(X)                                                                      \
     X(body) X(flies) X(walk) X(fly) X(jump) X(thrown) X(velocity) X(speed) X(rise) X(step_top)     \

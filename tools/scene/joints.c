@@ -72,6 +72,12 @@ static void place(const scene *s, const sc_end *end, const double anchor[2], dou
     out[1] = (double)p.y;
 }
 
+// It has a point on each body.
+static bool has_two(plumb_joint_kind kind)
+{
+    return kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY || kind == PLUMB_CABLE;
+}
+
 // Anchors that were not given: where `state` says, else the centre of mass of the body in question.
 static void settle_anchors(scene *s, const sc_site *site, sc_joint_def *d)
 {
@@ -81,7 +87,7 @@ static void settle_anchors(scene *s, const sc_site *site, sc_joint_def *d)
         place(s, &d->b, d->state.anchor_b, d->at);
         return;
     }
-    if (d->kind != PLUMB_DISTANCE && d->kind != PLUMB_PULLEY) {
+    if (!has_two(d->kind)) {
         if (!GIVEN(d, at)) {
             center_of(s, plumb_is_null(d->b.body) ? &d->a : &d->b, d->at);
         }
@@ -182,7 +188,7 @@ static void check_spring(scene *s, const sc_site *site, const sc_joint_def *d)
 
 static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
 {
-    bool two = d->kind == PLUMB_DISTANCE || d->kind == PLUMB_PULLEY;
+    bool two = has_two(d->kind);
     bool slides = d->kind == PLUMB_PRISMATIC;
     plumb_joint_desc desc = {
         .kind = d->kind,
@@ -206,6 +212,8 @@ static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
         .damper = (plumb_real)d->spring.damper,
         .rest = (plumb_real)(d->kind == PLUMB_MOTOR ? d->angle : d->spring.rest),
         .length = (plumb_real)d->length,
+        .radius_a = (plumb_real)d->radius_a,
+        .radius_b = (plumb_real)d->radius_b,
         .ratio = (plumb_real)d->ratio,
         .pitch = (plumb_real)d->pitch,
         .max_force = (plumb_real)d->max_force,

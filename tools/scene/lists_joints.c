@@ -105,6 +105,14 @@ static const sc_field ratchet_rows[] = {
 static const sc_field friction_rows[] = {
     ROW_A, ROW_AT, ROW_B, ROWS_BREAK, ROW_MAX_FORCE, ROW_MAX_TORQUE, ROW_NAME, ROW_STATE,
 };
+static const sc_field cable_rows[] = {
+    ROW_A, ROW_AT_A, ROW_AT_B, ROW_B, ROWS_BREAK,
+    { "length", SC_NUMBER, AT(T, length), 0, SIZE, "m", 0, SC_ABOVE },
+    ROW_NAME,
+    { "radius_a", SC_NUMBER, AT(T, radius_a), -SIZE, SIZE, "m", 0, 0 },
+    { "radius_b", SC_NUMBER, AT(T, radius_b), -SIZE, SIZE, "m", 0, 0 },
+    ROW_STATE,
+};
 // Of a kind without rows of its own here; what it does not have of these, the world refuses.
 #define GENERAL_ROWS                                                                                \
     ((const sc_field[]){ ROW_A, ROW_AT, ROW_AXIS, ROW_B, ROWS_BREAK, ROW_LIMITS(-BIG, "rad or m"),   \
@@ -121,6 +129,7 @@ static const sc_field friction_rows[] = {
 #define OWN_pulley    , pulley_rows
 #define OWN_ratchet   , ratchet_rows
 #define OWN_friction  , friction_rows
+#define OWN_cable     , cable_rows
 // Where OWN_<name> is no macro, the row behind is the second.
 #define SECOND(first, second, ...) second
 #define ROWS_OF(...)               SECOND(__VA_ARGS__, GENERAL_ROWS, 0)
