@@ -34,6 +34,25 @@ static ends ends_of(const pl_drawing *d, const pl_joint *j)
     return e;
 }
 
+// From rim to rim, whose radii are drawn as well; from centre to centre where no line touches both.
+static void draw_cable(const pl_drawing *d, const pl_joint *j, const ends *e, plumb_paint paint)
+{
+    const plumb_vec2 way = plumb_vec2_sub(e->b, e->a), left = plumb_vec2_left(way);
+    const real across = j->desc.radius_a - j->desc.radius_b;
+    const real square = plumb_vec2_magnitude_sq(way), free = square - across * across;
+    plumb_vec2 from = e->a, to = e->b;
+    if (free > 0) {
+        const plumb_vec2 n = plumb_vec2_scale(
+            1 / square,
+            plumb_vec2_add_scaled(plumb_vec2_scale(plumb_sqrt(free), way), -across, left));
+        from = plumb_vec2_add_scaled(from, j->desc.radius_a, plumb_vec2_left(n));
+        to = plumb_vec2_add_scaled(to, j->desc.radius_b, plumb_vec2_left(n));
+    }
+    pl_draw_line(d, e->a, from, paint);
+    pl_draw_line(d, from, to, paint);
+    pl_draw_line(d, to, e->b, paint);
+}
+
 static void draw_ends(const pl_drawing *d, const pl_joint *j, const ends *e, plumb_paint paint)
 {
     switch (j->desc.kind) {
@@ -48,6 +67,9 @@ static void draw_ends(const pl_drawing *d, const pl_joint *j, const ends *e, plu
     case PLUMB_DISTANCE:
     case PLUMB_MOUSE:
         pl_draw_line(d, e->a, e->b, paint);
+        break;
+    case PLUMB_CABLE:
+        draw_cable(d, j, e, paint);
         break;
     case PLUMB_GEAR:
         pl_draw_line(d, e->center_a, e->center_b, paint);

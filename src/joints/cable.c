@@ -87,8 +87,14 @@ static pl_row row_of(const pl_joint *j, const pl_joint_pose *a, const pl_joint_p
     const plumb_vec2 d = pl_joint_apart(a, b), n = span_of(d, e, &span), m = plumb_vec2_left(n);
     const double turned = e != 0 ? (double)e * turn_of(j, a, n) : 0;
     const double wound = ra * a->angle - rb * b->angle - turned - (double)j->SLIPPED;
-    const plumb_vec2 at_a = plumb_vec2_scale(j->desc.radius_a, m);
-    const plumb_vec2 at_b = plumb_vec2_scale(j->desc.radius_b, m);
+    plumb_vec2 at_a = plumb_vec2_scale(j->desc.radius_a, m);
+    plumb_vec2 at_b = plumb_vec2_scale(j->desc.radius_b, m);
+    if (span ==
+        0) { // what it gave is taken back: at one point, or angular momentum would come of it
+        const plumb_vec2 way = plumb_vec2_sub(plumb_vec2_add(d, at_b), at_a);
+        at_a = plumb_vec2_add_scaled(at_a, (real)0.5, way);
+        at_b = plumb_vec2_add_scaled(at_b, (real)-0.5, way);
+    }
     const plumb_vec2 arm_a = plumb_v2(a->rx, a->ry), arm_b = plumb_v2(b->rx, b->ry);
     return (pl_row){ .ax = -n.x,
                      .ay = -n.y,

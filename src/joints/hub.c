@@ -10,6 +10,8 @@
 // net 1, ragdolls 0.9; a link between two of its mass that bears much more has 5/4, equal boxes in a row of welds 1.7. Beyond MOST
 // an assembly is solved together, whole: in part, what is solved and what is swept feed one another (DECISIONS.md).
 //
+// Cables push at their rims, the others at their anchors.
+//
 // The rule asks for masses and for places on the bodies alone, never for poses, so that a plan can be kept.
 //
 // Reads: marks with assemblies, joints, masses. Writes: marks. Order: before joints get colours. Cost: O(joints) where a plan is made.

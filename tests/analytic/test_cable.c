@@ -71,12 +71,13 @@ static void atwood_turns_a_heavy_wheel(void **state)
             solver_names[k], -sim_vy(w, left) / a - 1, sim_w(w, wheel) * r / a - 1,
             tension(w, one) / (m1 * (SIM_G - a)) - 1, tension(w, two) / (m2 * (SIM_G + a)) - 1,
             sim_energy(w) - before, -2 - sim_y(w, left) - a / 2);
-        const double near = k == 1 ? 5e-3 : ROUNDED(2e-4);
+        const double near = k == 1 ? 5e-3 : ROUNDED(2e-4) + 1e-5;
         assert_near(-sim_vy(w, left) / a, 1, near);
         assert_near(sim_vy(w, right) / a, 1, near);
         assert_near(sim_w(w, wheel) * r / a, 1, near);
         assert_near(tension(w, one) / (m1 * (SIM_G - a)), 1, 20 * near);
         assert_near(tension(w, two) / (m2 * (SIM_G + a)), 1, 20 * near);
+        assert_near(sim_energy(w), before, k == 1 ? 0.2 : 5e-3);
         plumb_world_destroy(w);
     }
 }
@@ -502,7 +503,8 @@ static void ropes_make_neither_momentum_nor_energy(void **state)
                       "in %d by more than 0.1 %%\n",
                       solver_names[k], rounds, push, turn, gain, gained);
         assert_true(push < SIM_TOLERANCE(2e-3, 1e-10));
-        assert_true(k == 1 || turn < SIM_TOLERANCE(5e-3, 1e-9)); // the classic solver shifts bodies
+        // The classic solver shifts bodies; of what catches, the exact one keeps momentum alone, of other ropes as well.
+        assert_true(k != 0 || turn < SIM_TOLERANCE(5e-3, 1e-10));
         assert_true(gain < 1e-3);
     }
 }

@@ -249,7 +249,7 @@ static void add_joint(session *s)
             d.damper = uniform(s) < 0.5 ? size_of(s, -3, 38) : 0;
         }
     }
-    if (d.kind == PLUMB_DISTANCE || d.kind == PLUMB_PULLEY) {
+    if (d.kind == PLUMB_DISTANCE || d.kind == PLUMB_PULLEY || d.kind == PLUMB_CABLE) {
         d.anchor_b = vec(s, -2, 9);
     }
     if (d.kind == PLUMB_PULLEY) {

@@ -8,7 +8,7 @@
 static plumb_joint make(fixture *f, plumb_joint_kind kind)
 {
     plumb_joint_desc d = { .kind = kind, .body_a = f->fixed, .body_b = f->dynamic };
-    if (kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY) {
+    if (kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY || kind == PLUMB_CABLE) {
         d.anchor_b = plumb_v2(0, 5);
     }
     if (kind == PLUMB_PULLEY) {
@@ -238,6 +238,16 @@ static void descriptors_are_checked(void **state)
                   PLUMB_PULLEY, .body_b = b);
     REFUSED_JOINT(E_GEOMETRY, "ground_b is the anchor; the rope must have length on both sides",
                   PLUMB_PULLEY, .body_b = b, .ground_a = { 0, 1 });
+    REFUSED_JOINT(E_GEOMETRY,
+                  "anchors are 0 m apart; no rope touches both rims unless it is more than 0",
+                  PLUMB_CABLE, .body_b = b);
+    REFUSED_JOINT(
+        E_GEOMETRY, "anchors are 1 m apart; no rope touches both rims unless it is more than 1.5",
+        PLUMB_CABLE, .body_b = b, .anchor_b = { 0, 1 }, .radius_a = 1, .radius_b = R(-0.5));
+    REFUSED_JOINT(E_RANGE, "length is -1; it must be at least 0", PLUMB_CABLE, .body_b = b,
+                  .anchor_b = { 0, 1 }, .length = -1);
+    REFUSED_JOINT(E_NOT_FINITE, "radius_b is nan; it must be finite", PLUMB_CABLE, .body_b = b,
+                  .anchor_b = { 0, 1 }, .radius_b = NAN);
     REFUSED_JOINT(E_RANGE, "pitch is 0; a ratchet must have teeth", PLUMB_RATCHET, .body_b = b);
     assert_int_equal(plumb_world_joints(f->world, NULL, 0), 0);
 }
@@ -263,18 +273,19 @@ typedef struct member {
 static void members_that_a_kind_does_not_have_are_refused(void **state)
 {
     fixture *f = *state;
-    // revolute prismatic weld wheel distance mouse motor gear pulley ratchet friction
-    static const char letters[] = "rpwhdmogyaf";
+    // revolute prismatic weld wheel distance mouse motor gear pulley ratchet friction cable
+    static const char letters[] = "rpwhdmogyafc";
     static const member members[] = {
-        MEMBER(anchor_b, "dy"),      MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
+        MEMBER(anchor_b, "dyc"),     MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
         MEMBER(axis, "phg"),         SWITCH(enable_limit, "rphd"), MEMBER(upper, "rphd"),
         SWITCH(enable_motor, "rph"), MEMBER(motor_speed, "rph"),   MEMBER(max_motor, "rph"),
         MEMBER(hertz, "rpwhdmo"),    MEMBER(damping, "rpwhdmo"),   MEMBER(rest, "rpwho"),
         MEMBER(restitution, "rphd"), MEMBER(stiffness, "rpwhdmo"), MEMBER(damper, "rpwhdmo"),
-        MEMBER(length, "d"),         MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),
-        MEMBER(max_force, "mof"),    MEMBER(max_torque, "of"),
+        MEMBER(length, "dc"),        MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),
+        MEMBER(max_force, "mof"),    MEMBER(max_torque, "of"),     MEMBER(radius_a, "c"),
+        MEMBER(radius_b, "c"),
     };
-    for (int kind = 0; kind <= PLUMB_FRICTION; ++kind) {
+    for (int kind = 0; kind <= PLUMB_CABLE; ++kind) {
         for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
             plumb_joint_desc d = { .kind = (plumb_joint_kind)kind, .body_b = f->dynamic };
             d.anchor = plumb_v2(0, 5);

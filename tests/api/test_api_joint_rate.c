@@ -33,12 +33,17 @@ static plumb_joint_desc random_joint(int kind, uint32_t *seed)
     plumb_joint_desc d = { .kind = (plumb_joint_kind)kind, .disabled = true };
     d.anchor = plumb_v2(R(sim_uniform(seed, -4, 4)), R(sim_uniform(seed, -4, 4)));
     const plumb_vec2 far = { R(sim_uniform(seed, -4, 4)), R(sim_uniform(seed, -4, 4)) };
-    if (kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY) {
+    if (kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY || kind == PLUMB_CABLE) {
         d.anchor_b = far;
     }
     if (kind == PLUMB_PULLEY) {
         d.ground_a = plumb_v2(-2, 9);
         d.ground_b = plumb_v2(2, 9);
+    }
+    if (kind == PLUMB_CABLE) { // above what A's may be
+        d.anchor_b.y += 9;
+        d.radius_a = R(0.5);
+        d.radius_b = R(-0.25);
     }
     d.pitch = kind == PLUMB_RATCHET ? 1 : 0;
     d.ratio = kind == PLUMB_GEAR ? R(-2) : kind == PLUMB_PULLEY ? R(1.5) : 0;
@@ -88,7 +93,7 @@ static void rates_are_those_of_the_values(void **state)
 
 static plumb_joint make(fixture *f, plumb_joint_kind kind)
 {
-    const bool two = kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY;
+    const bool two = kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY || kind == PLUMB_CABLE;
     const plumb_real high = kind == PLUMB_PULLEY ? 8 : 0;
     const plumb_joint_desc d = { .kind = kind,
                                  .body_a = f->kinematic,
@@ -119,7 +124,7 @@ static void turns_and_travels_are_told_apart(void **state)
         const bool turns = kind == PLUMB_REVOLUTE || kind == PLUMB_WELD || kind == PLUMB_WHEEL ||
                            kind == PLUMB_MOTOR || kind == PLUMB_FRICTION || kind == PLUMB_RATCHET;
         const bool travels = kind == PLUMB_PRISMATIC || kind == PLUMB_WHEEL ||
-                             kind == PLUMB_DISTANCE || kind == PLUMB_MOUSE;
+                             kind == PLUMB_DISTANCE || kind == PLUMB_MOUSE || kind == PLUMB_CABLE;
         const plumb_joint j = make(f, (plumb_joint_kind)kind);
         const int errors = f->errors;
         const plumb_real turn = plumb_joint_turn_rate(f->world, j);

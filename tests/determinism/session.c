@@ -311,11 +311,12 @@ static void make_body(session *s, uint32_t i)
 static void make_joint(session *s, uint32_t i)
 {
     plumb_body a = s->body[pick(s, SESSION_BODIES)], b = s->body[pick(s, SESSION_BODIES)];
-    plumb_joint_desc d = { .kind = (plumb_joint_kind)pick(s, 11), .body_a = a, .body_b = b };
+    plumb_joint_desc d = { .kind = (plumb_joint_kind)pick(s, 12), .body_a = a, .body_b = b };
     d.anchor = plumb_body_position(s->world, a);
-    if (d.kind == PLUMB_DISTANCE || d.kind == PLUMB_PULLEY) {
+    if (d.kind == PLUMB_DISTANCE || d.kind == PLUMB_PULLEY || d.kind == PLUMB_CABLE) {
         d.anchor_b = plumb_body_position(s->world, b);
     }
+    d.radius_a = d.kind == PLUMB_CABLE ? R(0.2) : 0;
     if (d.kind == PLUMB_PULLEY) {
         d.ground_a = (plumb_vec2){ 0, 9 };
         d.ground_b = (plumb_vec2){ 1, 9 };

@@ -182,14 +182,15 @@ static void join(run *r, plumb_body a, plumb_body b)
     if (plumb_same(a, b)) {
         return;
     }
-    plumb_joint_desc d = { .kind = (plumb_joint_kind)pick(r, 11), .body_a = a, .body_b = b };
+    plumb_joint_desc d = { .kind = (plumb_joint_kind)pick(r, 12), .body_a = a, .body_b = b };
     d.anchor = plumb_body_position(r->w, a);
     d.anchor_b = plumb_body_position(r->w, b);
     d.ground_a = sim_vec(0, 12);
     d.ground_b = sim_vec(1, 12);
     d.pitch = d.kind == PLUMB_RATCHET ? (plumb_real)0.3 : 0;
     d.break_force = pick(r, 2) ? 500 : 0;
-    if (d.kind != PLUMB_DISTANCE && d.kind != PLUMB_PULLEY) {
+    d.radius_b = d.kind == PLUMB_CABLE ? (plumb_real)-0.2 : 0;
+    if (d.kind != PLUMB_DISTANCE && d.kind != PLUMB_PULLEY && d.kind != PLUMB_CABLE) {
         d.anchor_b = sim_vec(0, 0);
     }
     if (d.kind != PLUMB_PULLEY) {

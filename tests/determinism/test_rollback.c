@@ -123,7 +123,7 @@ static void make_ground(plumb_world *w, const script *s)
 // One joint of each kind, on bodies of its own.
 static void make_joints(plumb_world *w)
 {
-    for (int kind = 0; kind <= PLUMB_FRICTION; ++kind) {
+    for (int kind = 0; kind <= PLUMB_CABLE; ++kind) {
         plumb_real x = R(kind) * 2 - 10;
         plumb_body pair[2];
         for (int i = 0; i < 2; ++i) {
@@ -148,6 +148,11 @@ static void make_joints(plumb_world *w)
             d.anchor_b = (plumb_vec2){ x, 8 };
             d.ground_a = (plumb_vec2){ x, 10 };
             d.ground_b = (plumb_vec2){ x + 1, 10 };
+            break;
+        case PLUMB_CABLE:
+            d.anchor_b = (plumb_vec2){ x, 8 };
+            d.radius_a = R(0.3);
+            d.radius_b = R(-0.1);
             break;
         case PLUMB_RATCHET:
             d.pitch = R(0.25);

@@ -69,13 +69,15 @@ static inline plumb_body add(plumb_world *w, plumb_body_type type, double x, dou
 
 static inline void add_joints(plumb_world *w, plumb_body a, plumb_body b, int first)
 {
-    for (int kind = first; kind < first + 6 && kind < 11; ++kind) {
+    for (int kind = first; kind < first + 7 && kind < 12; ++kind) {
         plumb_joint_create(w, &(plumb_joint_desc){ .kind = (plumb_joint_kind)kind,
                                                    .body_a = a,
                                                    .body_b = b,
                                                    .ground_a = { 0, kind == PLUMB_PULLEY ? 9 : 0 },
                                                    .ground_b = { kind == PLUMB_PULLEY ? 1 : 0,
                                                                  kind == PLUMB_PULLEY ? 9 : 0 },
+                                                   .anchor_b = { 0, kind == PLUMB_CABLE ? 3 : 0 },
+                                                   .radius_a = kind == PLUMB_CABLE ? R(0.2) : 0,
                                                    .pitch = kind == PLUMB_RATCHET ? R(0.3) : 0,
                                                    .break_force = 1000,
                                                    .break_impulse = kind % 2 ? 100 : 0 });

@@ -237,11 +237,14 @@ void sim_fit_joint(plumb_joint_desc *desc)
                                 .disabled = given.disabled,
                                 .collide_connected = given.collide_connected,
                                 .user_data = given.user_data };
-    desc->anchor_b = k == PLUMB_DISTANCE || k == PLUMB_PULLEY ? given.anchor_b : desc->anchor_b;
+    const bool two = k == PLUMB_DISTANCE || k == PLUMB_PULLEY || k == PLUMB_CABLE;
+    desc->anchor_b = two ? given.anchor_b : desc->anchor_b;
     desc->ground_a = k == PLUMB_PULLEY ? given.ground_a : desc->ground_a;
     desc->ground_b = k == PLUMB_PULLEY ? given.ground_b : desc->ground_b;
     desc->axis = slides || k == PLUMB_GEAR ? given.axis : desc->axis;
-    desc->length = k == PLUMB_DISTANCE ? given.length : 0;
+    desc->length = k == PLUMB_DISTANCE || k == PLUMB_CABLE ? given.length : 0;
+    desc->radius_a = k == PLUMB_CABLE ? given.radius_a : 0;
+    desc->radius_b = k == PLUMB_CABLE ? given.radius_b : 0;
     desc->ratio = k == PLUMB_GEAR || k == PLUMB_PULLEY ? given.ratio : 0;
     desc->pitch = k == PLUMB_RATCHET ? given.pitch : 0;
     desc->max_force = pulls || k == PLUMB_MOUSE ? given.max_force : 0;

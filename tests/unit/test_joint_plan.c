@@ -260,13 +260,13 @@ static void a_plan_does_not_depend_on_the_past(void **state)
     plumb_world_destroy(busy);
 }
 
-// Gears and pulleys have rows of their own form; springs of motor joints beside centres are blocks in newtons; wheels that
+// Gears, pulleys and cables have rows of their own form; springs of motor joints beside centres are blocks in newtons; wheels that
 // slide freely are solved together.
 static bool goes_in_lanes(plumb_joint_kind kind, unsigned parts)
 {
     const bool limit = (parts & 1) != 0, spring = (parts & 4) != 0;
-    return kind != PLUMB_GEAR && kind != PLUMB_PULLEY && !(kind == PLUMB_MOTOR && spring) &&
-           !(kind == PLUMB_WHEEL && !limit && !spring);
+    return kind != PLUMB_GEAR && kind != PLUMB_PULLEY && kind != PLUMB_CABLE &&
+           !(kind == PLUMB_MOTOR && spring) && !(kind == PLUMB_WHEEL && !limit && !spring);
 }
 
 // Two crates tied together fly and spin; `crowded`: so many patterns are there before that this one

@@ -37,6 +37,9 @@ static plumb_joint_desc busy(plumb_joint_kind kind, unsigned *seed)
     d.lower = d.enable_limit ? (plumb_real)0.25 : 0;
     d.upper = d.enable_limit ? 4 : 0;
     d.pitch = kind == PLUMB_RATCHET ? (plumb_real)(*seed % 3 == 0 ? -0.3 : 0.3) : 0;
+    d.radius_a =
+        (plumb_real)(*seed % 2 == 0 ? 0.2 : -0.1); // where no line touches both rims it is refused
+    d.radius_b = (plumb_real)(kind == PLUMB_CABLE ? 0.1 : 0);
     d.max_motor = 3;
     d.max_force = 10;
     d.max_torque = 10;

@@ -43,7 +43,10 @@ static const char all_kinds[] =
     "  ratio = 2 }\n"
     "revolute{ block('j', 30, 0), at = {29.8, 0} }\n"
     "ratchet{ 'j', pitch = 0.3 }\n"
-    "friction{ block('k', 33, 0), at = {33.1, 0}, max_force = 4, max_torque = 0.3 }\n";
+    "friction{ block('k', 33, 0), at = {33.1, 0}, max_force = 4, max_torque = 0.3 }\n"
+    "cable{ world, block('l', 36, 0), at_a = {36.5, 3}, radius_a = 0.3, radius_b = -0.1,\n"
+    "  length = 3.5 }\n"
+    "cable{ block('m1', 39, 0), block('m2', 41, 1), radius_a = -0.2, radius_b = -0.2 }\n";
 
 static void test_every_kind(void **state)
 {
@@ -52,7 +55,7 @@ static void test_every_kind(void **state)
     plumb_world *w = scene_world(s);
     plumb_joint list[64];
     int count = plumb_world_joints(w, list, 64);
-    assert_int_equal(count, 19);
+    assert_int_equal(count, 21);
     bool seen[32] = { false };
     for (int i = 0; i < count; i++) {
         seen[plumb_joint_get_kind(w, list[i])] = true;

@@ -48,6 +48,8 @@ static render_joint_kind sign_of(const plumb_joint_desc *d)
         return RENDER_JOINT_RATCHET;
     case PLUMB_FRICTION:
         return RENDER_JOINT_PADS;
+    case PLUMB_CABLE:
+        return RENDER_JOINT_CABLE;
     default:
         return RENDER_JOINT_ROD; // a kind without a sign of its own: its anchors
     }
@@ -94,6 +96,22 @@ static render_vec nearest(const plumb_world *world, plumb_vec2 point, plumb_vec2
     return (render_vec){ (double)to.x + (double)way.x, (double)to.y + (double)way.y };
 }
 
+/// Where a cable leaves its rims, if a line touches both; else it goes from centre to centre.
+static void unwind(const plumb_joint_desc *d, render_joint *out)
+{
+    const double x = out->b.x - out->a.x, y = out->b.y - out->a.y, square = x * x + y * y;
+    const double ra = (double)d->radius_a, rb = (double)d->radius_b, e = ra - rb;
+    out->via_a = out->a;
+    out->via_b = out->b;
+    out->slack = fmax((double)d->length - out->value, 0);
+    if (square > e * e) {
+        const double span = sqrt(square - e * e);
+        const render_vec n = { (span * x + e * y) / square, (span * y - e * x) / square };
+        out->via_a = (render_vec){ out->a.x - ra * n.y, out->a.y + ra * n.x };
+        out->via_b = (render_vec){ out->b.x - rb * n.y, out->b.y + rb * n.x };
+    }
+}
+
 static void add_joint(const plumb_world *world, plumb_joint joint, render_frame *frame)
 {
     plumb_joint_desc d = { .kind = PLUMB_REVOLUTE };
@@ -119,6 +137,9 @@ static void add_joint(const plumb_world *world, plumb_joint joint, render_frame 
     }
     if (out.kind == RENDER_JOINT_ROPE) {
         out.slack = fmax(out.upper - out.value, 0);
+    }
+    if (d.kind == PLUMB_CABLE) {
+        unwind(&d, &out);
     }
     if (d.kind == PLUMB_GEAR) { // it has no anchors: it ties how bodies turn
         out.a = to_render(plumb_body_center(world, plumb_is_null(a) ? b : a));

@@ -102,16 +102,16 @@ static void zigzag(plr_painter *painter, const sketch *s, render_vec a, render_v
 }
 
 // A slack rope hangs: a parabola of about the rope's length, L^2 = d^2 + (16/3) sag^2 for small sag.
-static void rope(plr_painter *painter, const sketch *s)
+static void rope(plr_painter *painter, const sketch *s, render_vec a, render_vec b)
 {
     enum { pieces = 20 };
     render_vec points[pieces + 1];
-    const double d = apart(s->a, s->b), length = d + fmax(s->slack, 0.0);
+    const double d = apart(a, b), length = d + fmax(s->slack, 0.0);
     const double sag = sqrt(fmax(length * length - d * d, 0.0) * (3.0 / 16.0));
     for (int i = 0; i <= pieces; i++) {
         const double t = (double)i / pieces;
-        points[i] = (render_vec){ s->a.x + t * (s->b.x - s->a.x),
-                                  s->a.y + t * (s->b.y - s->a.y) + 4.0 * sag * t * (1.0 - t) };
+        points[i] = (render_vec){ a.x + t * (b.x - a.x),
+                                  a.y + t * (b.y - a.y) + 4.0 * sag * t * (1.0 - t) };
     }
     stroke(painter, s, points, pieces + 1, false, 0.8 * line_width, ink);
 }
@@ -276,6 +276,21 @@ static void draw_pulley(plr_painter *painter, const sketch *s)
     knob(painter, s, s->b, 3.0);
 }
 
+// What is wound on a rim is a ring; a rope that is tied to a point ends in a knob.
+static void draw_cable(plr_painter *painter, const sketch *s)
+{
+    const render_vec middles[2] = { s->a, s->b }, ends[2] = { s->via_a, s->via_b };
+    rope(painter, s, s->via_a, s->via_b);
+    for (int i = 0; i < 2; i++) {
+        const double radius = apart(middles[i], ends[i]);
+        if (radius > 3.0 * s->u) {
+            arc(painter, s, middles[i], radius, 0.0, 2.0 * PLR_PI, 0.8 * line_width, ink);
+        } else {
+            knob(painter, s, ends[i], 3.0);
+        }
+    }
+}
+
 static void draw_pads(plr_painter *painter, const sketch *s)
 {
     const double w = 6.0 * s->u, h = 2.6 * s->u;
@@ -311,7 +326,7 @@ static void draw(plr_painter *painter, const sketch *s)
         if (s->kind == RENDER_JOINT_SPRING) {
             zigzag(painter, s, s->a, s->b);
         } else if (s->kind == RENDER_JOINT_ROPE) {
-            rope(painter, s);
+            rope(painter, s, s->a, s->b);
         } else {
             line(painter, s, s->a, s->b);
         }
@@ -344,6 +359,9 @@ static void draw(plr_painter *painter, const sketch *s)
         return; // its direction is that of the teeth
     case RENDER_JOINT_PADS:
         draw_pads(painter, s);
+        break;
+    case RENDER_JOINT_CABLE:
+        draw_cable(painter, s);
         break;
     case RENDER_JOINT_KINDS:
         return;
@@ -414,6 +432,7 @@ const char *plr_joint_name(render_joint_kind kind)
         [RENDER_JOINT_PULLEY] = "pulley",
         [RENDER_JOINT_RATCHET] = "ratchet",
         [RENDER_JOINT_PADS] = "friction",
+        [RENDER_JOINT_CABLE] = "cable",
     };
     return names[kind];
 }
@@ -454,6 +473,12 @@ void plr_joint_sample(plr_painter *painter, const render_joint *like, render_vec
         s.u = 0.6 * painter->ui;
         s.a = left;
         s.b = right;
+        break;
+    case RENDER_JOINT_CABLE:
+        s.u = 0.75 * painter->ui;
+        s.a = left;
+        s.b = s.via_b = right;
+        s.via_a = (render_vec){ left.x, left.y - 0.22 * size };
         break;
     case RENDER_JOINT_HINGE:
     case RENDER_JOINT_WELD:

@@ -194,6 +194,7 @@ typedef enum render_joint_kind {
     RENDER_JOINT_PULLEY,  ///< a rope over two wheels
     RENDER_JOINT_RATCHET, ///< a ring of slanted teeth
     RENDER_JOINT_PADS,    ///< two pads that rub
+    RENDER_JOINT_CABLE,   ///< rims about the anchors, and the rope between them
     RENDER_JOINT_KINDS
 } render_joint_kind;
 
@@ -201,7 +202,7 @@ typedef enum render_joint_kind {
 typedef struct render_joint {
     render_joint_kind kind;
     render_vec a, b;         ///< anchors on the two bodies; a pointer's target is `a`
-    render_vec via_a, via_b; ///< pulley: the wheels
+    render_vec via_a, via_b; ///< pulley: the wheels; cable: where the rope leaves the rims
     render_vec axis;         ///< unit; slider, wheel: the way; hinge: where B points at value 0
     bool has_limit;
     double lower, upper; ///< slider, wheel: along the axis from `a`; hinge: [rad] of the value
@@ -209,7 +210,7 @@ typedef struct render_joint {
     double drive;        ///< motor: its sign (counter-clockwise, or along the axis), 0: none;
                          ///< ratchet: the way it turns
     bool has_spring;
-    double slack; ///< rope: by how much it is longer than the straight way
+    double slack; ///< rope, cable: by how much it is longer than the straight way
     double reach; ///< half the size of the smaller body: signs shrink to fit; 0: full size
 } render_joint;
 /// A joint. RENDER_E_ARGUMENT: no such kind, or an axis that is needed and {0}.
