@@ -1,4 +1,4 @@
--- joints.lua - one joint of each kind, side by side.
+-- joints.lua - one joint of each kind but the cable (tackle.lua), side by side.
 -- Shows: how each kind is written, what it allows and what it holds; the numbers are those of statics.
 scene { title = "Joints", description = "Eleven kinds of joints, one of each.", duration = 6 }
 camera { fit = {{-1.4, -5.3}, {19.6, 3.6}}, at = 2.4 }

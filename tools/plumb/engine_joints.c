@@ -104,6 +104,7 @@ static void unwind(const plumb_joint_desc *d, render_joint *out)
     out->via_a = out->a;
     out->via_b = out->b;
     out->slack = fmax((double)d->length - out->value, 0);
+    out->reach = 0; // however small its wheels are, it is one rope
     if (square > e * e) {
         const double span = sqrt(square - e * e);
         const render_vec n = { (span * x + e * y) / square, (span * y - e * x) / square };
