@@ -42,6 +42,11 @@ typedef struct plumb_liquid_desc {
     /// [Pa s] 0..1e9 dynamic; 0: it slips along walls. Above 0 it clings to them, as honey (10), and pitch (1e6 and
     /// more). Stable at any; values beyond 1e6 density (2 spacing)^2 / dt act as that. Costs a solution of its own
     plumb_real viscosity;
+    /// [N/m] 0..1e9 of the surface to the air, not between phases; 0: it has none. Water: 0.072. The pressure in a drop of radius R
+    /// is higher by tension / R; the surface meets walls and bodies at right angles, and does not pull at these. Good where radii
+    /// are five cells (ten spacings) and more. A step is cut into parts below sqrt(density (2 spacing)^3 / (2 pi tension)), at
+    /// most eight; more acts as what these can follow
+    plumb_real tension;
 } plumb_liquid_desc;
 
 /// Most phases beside the first.
@@ -71,7 +76,7 @@ PLUMB_API plumb_result plumb_liquid_destroy(plumb_world *world);
 
 /// The settings in force, defaults resolved. Errors: E_NULL, E_STATE (there is no liquid).
 PLUMB_API plumb_result plumb_liquid_settings(const plumb_world *world, plumb_liquid_desc *desc);
-/// Changes density and viscosity from the next step on; `spacing` must be 0 or what it is. `desc` may be null
+/// Changes density, viscosity and tension from the next step on; `spacing` must be 0 or what it is. `desc` may be null
 /// (= {0}). Errors: as plumb_liquid_create; E_STATE also for another spacing; E_RANGE also for a density that is not
 /// within a thousandth to a thousand times that of each phase.
 PLUMB_API plumb_result plumb_liquid_set(plumb_world *world, const plumb_liquid_desc *desc);

@@ -28,7 +28,8 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
     if (d->density != 0) {
         PL_TRY(pl_check_range(world, fn, "density", d->density, DENSITY_LEAST, MOST));
     }
-    return pl_check_range(world, fn, "viscosity", d->viscosity, 0, PL_LIQUID_MOST_VISCOSITY);
+    PL_TRY(pl_check_range(world, fn, "viscosity", d->viscosity, 0, PL_LIQUID_MOST_VISCOSITY));
+    return pl_check_range(world, fn, "tension", d->tension, 0, PL_LIQUID_MOST_TENSION);
 }
 
 static real density_of(real said)
@@ -69,7 +70,8 @@ bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
 {
     return d->spacing >= SPACING_LEAST && d->spacing <= SPACING_MOST &&
            d->density >= DENSITY_LEAST && d->density <= MOST && d->viscosity >= 0 &&
-           d->viscosity <= PL_LIQUID_MOST_VISCOSITY;
+           d->viscosity <= PL_LIQUID_MOST_VISCOSITY && d->tension >= 0 &&
+           d->tension <= PL_LIQUID_MOST_TENSION;
 }
 
 bool pl_liquid_phase_is_sound(const plumb_liquid_phase *phase, plumb_real first_density)
@@ -105,6 +107,7 @@ static void put_desc(pl_liquid *liquid, const plumb_liquid_desc *d)
     to->spacing = d->spacing > 0 ? d->spacing : PLUMB_REAL(0.05);
     to->density = density_of(d->density);
     to->viscosity = d->viscosity;
+    to->tension = d->tension;
 }
 
 plumb_result plumb_liquid_create(plumb_world *world, const plumb_liquid_desc *desc)

@@ -109,6 +109,16 @@ void pl_liquid_bound(pl_liquid_grid *grid);
 void pl_liquid_sample(const pl_liquid_grid *grid, pl_liquid_point *point, near_real *dx,
                       near_real *dy);
 
+//---- tension.c -----------------------------------------------------------------------------------
+
+#define PL_LIQUID_MOST_TENSION ((plumb_real)1e9)
+
+// Faces at the surface get the pressure that its tension makes. pull: [m/s] of a curvature of one a cell, tension dt / (density h^2).
+// False when out of memory.
+bool pl_liquid_tighten(pl_memory *memory, pl_liquid_scratch *scratch, double pull);
+// Faces that no cell with liquid is beside are not known any more: they have felt no pressure.
+void pl_liquid_forget_far(pl_liquid_grid *grid);
+
 //---- viscosity.c ---------------------------------------------------------------------------------
 
 #define PL_LIQUID_THICK 1e6 // [-] beyond it float cannot tell a liquid from a solid

@@ -15,12 +15,29 @@
 
 #define MOST_PARTS   8 // of a step
 #define CELLS_A_PART 1.0
+#define TWO_PI       6.283185307179586
 
 bool pl_want_liquid(const plumb_world *world, const char **reason)
 {
     const bool wanted = world->liquid.count > 0 || world->liquid.support_count > 0;
     *reason = wanted ? "there is liquid, or was in the last step" : "there is no liquid";
     return wanted;
+}
+
+// [s] half of that above which the shortest waves that tension makes would grow (Brackbill et al. 1992).
+static double longest_part(const plumb_liquid_desc *d)
+{
+    const double h = 2 * (double)d->spacing, tension = (double)d->tension;
+    return tension > 0 ? sqrt((double)d->density * h * h * h / (4 * TWO_PI * tension)) : INFINITY;
+}
+
+// [m/s] of a curvature of one a cell in a part of dt, of as much tension as such a part can follow.
+static double pull_of(const plumb_liquid_desc *d, double dt)
+{
+    const double h = 2 * (double)d->spacing,
+                 pull = (double)d->tension * dt / ((double)d->density * h * h);
+    const double most = h / (4 * TWO_PI * dt);
+    return pull < most ? pull : most;
 }
 
 static int parts_of(const plumb_world *world, double h, double dt)
@@ -37,7 +54,9 @@ static int parts_of(const plumb_world *world, double h, double dt)
         most = y > most ? y : most;
     }
     most += dt * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
-    const double parts = most * dt / h / CELLS_A_PART;
+    const double moving = most * dt / h / CELLS_A_PART;
+    const double pulled = dt / longest_part(pl_liquid_desc(&world->liquid));
+    const double parts = moving > pulled ? moving : pulled;
     return parts > MOST_PARTS ? MOST_PARTS : parts > 1 ? (int)ceil(parts) : 1;
 }
 
@@ -71,6 +90,9 @@ static bool run_part(plumb_world *world, real dt, int i, int parts)
     pl_liquid_pull_nodes(g, 1.0 / parts);
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
+    if (d->tension > 0 && !pl_liquid_tighten(memory, scratch, pull_of(d, (double)dt))) {
+        return false;
+    }
     const double push = (double)d->density * h * h;
     pl_liquid_bear_rests(g, push, (double)world->gravity.x * (double)dt,
                          (double)world->gravity.y * (double)dt);
@@ -89,6 +111,9 @@ static bool run_part(plumb_world *world, real dt, int i, int parts)
     }
     if (!pl_liquid_project(memory, scratch, push)) {
         return false;
+    }
+    if (d->tension > 0) {
+        pl_liquid_forget_far(g);
     }
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_bound(g);

@@ -76,6 +76,7 @@ static void bad_settings_are_refused(void **state)
         assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .density = bad[i] }) != PLUMB_OK);
         assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .viscosity = bad[i] }) !=
                     PLUMB_OK);
+        assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .tension = bad[i] }) != PLUMB_OK);
     }
     plumb_liquid_desc d;
     assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_E_STATE);
@@ -85,12 +86,14 @@ static void bad_settings_are_refused(void **state)
     assert_int_equal(plumb_liquid_create(w, NULL), PLUMB_E_STATE);
     assert_int_equal(plumb_liquid_settings(w, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_OK);
-    assert_true(d.spacing == R(0.05) && d.density == 1000 && d.viscosity == 0);
+    assert_true(d.spacing == R(0.05) && d.density == 1000 && d.viscosity == 0 && d.tension == 0);
     assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .spacing = 1 }), PLUMB_E_STATE);
-    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 3, .viscosity = 2 }),
-                     PLUMB_OK);
+    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .tension = -1 }), PLUMB_E_RANGE);
+    assert_int_equal(
+        plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 3, .viscosity = 2, .tension = 5 }),
+        PLUMB_OK);
     assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_OK);
-    assert_true(d.spacing == R(0.05) && d.density == 3 && d.viscosity == 2);
+    assert_true(d.spacing == R(0.05) && d.density == 3 && d.viscosity == 2 && d.tension == 5);
     assert_int_equal(plumb_liquid_destroy(w), PLUMB_OK);
     assert_int_equal(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = 1 }), PLUMB_OK);
 }

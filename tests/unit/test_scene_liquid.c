@@ -7,7 +7,8 @@ static const char tank[] =
     "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 8, at = {-2.5, 4}}, "
     "box{1, 8, at = {2.5, 4}} }\n"
     "body{ name = 'crate', box{0.6, 0.4}, density = 400, at = {0.3, 1.4}, angle = 0.2 }\n"
-    "liquid{ spacing = 0.1, density = 900, viscosity = 2, color = '#804020', box{4, 1, at = {0, "
+    "liquid{ spacing = 0.1, density = 900, viscosity = 2, tension = 3, color = '#804020', box{4, "
+    "1, at = {0, "
     "0.5}} "
     "}\n"
     "liquid{ circle{0.3, at = {-1, 2}}, polygon{ {-0.2, 2}, {0.8, 2}, {0.3, 3} }, velocity = {1, "
@@ -26,7 +27,8 @@ static void words_fill_shapes(void **state)
     scene *s = load(tank);
     plumb_liquid_desc d;
     assert_int_equal(plumb_liquid_settings(scene_world(s), &d), PLUMB_OK);
-    assert_true(fabs((double)d.spacing - 0.1) < 1e-6 && d.density == 900 && d.viscosity == 2);
+    assert_true(fabs((double)d.spacing - 0.1) < 1e-6 && d.density == 900 && d.viscosity == 2 &&
+                d.tension == 3);
     const scene_liquid looks = scene_get_liquid(s, 0);
     assert_true(looks.palette < 0 && looks.color.r == 0x80 && looks.color.a == 0xff);
     int count, moving = 0;
@@ -75,6 +77,7 @@ static void mistakes_are_told(void **state)
         { "liquid{ spacing = 1e-9 }", "spacing" },
         { "liquid{ density = -1 }", "density" },
         { "liquid{ viscosity = 0/0 }", "viscosity" },
+        { "liquid{ tension = -1 }", "tension" },
         { "liquid{ velocty = {1, 0} }", "did you mean 'velocity'" },
         { "liquid{ capsule{1, 0.5} }", "takes circles, boxes, polygons and outlines" },
         { "liquid{ box{1, 1, round = 0.1} }", "without 'round'" },

@@ -12,7 +12,8 @@ static void make_liquid(scene *s, const sc_site *site, const sc_liquid_def *d)
 {
     const plumb_liquid_desc desc = { .spacing = (plumb_real)d->spacing,
                                      .density = (plumb_real)d->density,
-                                     .viscosity = (plumb_real)d->viscosity };
+                                     .viscosity = (plumb_real)d->viscosity,
+                                     .tension = (plumb_real)d->tension };
     const plumb_result r = plumb_liquid_create(s->world, &desc);
     if (r != PLUMB_OK) {
         sc_refused(s, site, NULL, r, "liquid{}");
@@ -200,8 +201,8 @@ void sc_build_liquid(scene *s, const sc_site *site, int table)
     sc_read(s, site, &sc_list_liquid, table, &def);
     if (s->liquid_line == 0) {
         make_liquid(s, site, &def);
-    } else if (GIVEN(spacing) || GIVEN(density) || GIVEN(viscosity) || GIVEN(color) ||
-               GIVEN(name) || GIVEN(phases)) {
+    } else if (GIVEN(spacing) || GIVEN(density) || GIVEN(viscosity) || GIVEN(tension) ||
+               GIVEN(color) || GIVEN(name) || GIVEN(phases)) {
         sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL,
                  "settings of liquid{} were given on line %d; another one only adds to it",
                  s->liquid_line);

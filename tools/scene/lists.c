@@ -238,6 +238,7 @@ static const sc_field liquid_rows[] = {
     { "refill",    SC_BOOL,   AT(T, refill),      0, 0, NULL, 0, 0 },
     { "shapes",    SC_SHAPES, AT(T, shape_count), 0, 0, NULL, SC_REST, 0 },
     { "spacing",   SC_NUMBER, AT(T, spacing),     1e-4, 1e3, "m", 0, 0 },
+    { "tension",   SC_NUMBER, AT(T, tension),     0, 1e9, "N/m", 0, 0 },
     { "velocity",  SC_VEC2,   AT(T, velocity),    -1e6, 1e6, "m/s", 0, 0 },
     { "viscosity", SC_NUMBER, AT(T, viscosity),   0, 1e9, "Pa s", 0, 0 },
 };

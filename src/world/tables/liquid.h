@@ -251,7 +251,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined, nodes, rings, softbodies, soft_links, sides, touches;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches;
 } pl_liquid_scratch;
 
 // Particles by the bins that they lie in, for questions (sample.c): made when the first one is asked after they moved.
