@@ -119,6 +119,10 @@ bool pl_liquid_tighten(pl_memory *memory, pl_liquid_scratch *scratch, double pul
 // Faces that no cell with liquid is beside are not known any more: they have felt no pressure.
 void pl_liquid_forget_far(pl_liquid_grid *grid);
 
+// drops.c: drops that touch nothing gain no more than gravity's fall_x, fall_y [m/s]. Behind pl_liquid_tighten.
+void pl_liquid_keep_momentum(pl_liquid_grid *grid, pl_liquid_scratch *scratch, double fall_x,
+                             double fall_y);
+
 //---- viscosity.c ---------------------------------------------------------------------------------
 
 #define PL_LIQUID_THICK 1e6 // [-] beyond it float cannot tell a liquid from a solid

@@ -120,6 +120,10 @@ static bool run_part(plumb_world *world, real dt, int i, int parts)
     if (!pl_liquid_even_out(memory, scratch)) {
         return false;
     }
+    if (d->tension > 0) {
+        pl_liquid_keep_momentum(g, scratch, (double)world->gravity.x * (double)dt,
+                                (double)world->gravity.y * (double)dt);
+    }
     pl_liquid_move(g, (double)dt / h, moved);
     pl_liquid_place_solids(world, scratch, (double)dt);
     return true;
