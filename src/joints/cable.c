@@ -1,24 +1,24 @@
 // cable.c - a rope from a rim on A to a rim on B, which it winds on and off without slipping; it only pulls.
 //
-// n is the direction of the free span, m = left(n) the way from the centre of a rim to where the span touches it, if that is on
-// the left; radii r are signed, < 0: on the right. Then d + (rb - ra) m = L n, L the free span, d from centre to centre: with
+// n is the direction of the free run, m = left(n) the way from the centre of a rim to where the run touches it, if that is on
+// the left; radii r are signed, < 0: on the right. Then d + (rb - ra) m = L n, L the free run, d from centre to centre: with
 // e = ra - rb, d . n = L and d . m = e, so that
 //     L = sqrt(d^2 - e^2),     n = (L d - e left(d)) / d^2.
-// As the span turns by t since it was made, and the rims by a and b, it is wound on by -ra (t - a) + rb (t - b). The value is
+// As the run turns by t since it was made, and the rims by a and b, it is wound on by -ra (t - a) + rb (t - b). The value is
 //     L - ra (t - a) + rb (t - b),
-// and its slope is n at the tangent points: what the turning of the span does to L and to what is wound cancels. Its bend is that of
+// and its slope is n at the tangent points: what the turning of the run does to L and to what is wound cancels. Its bend is that of
 // a length between the centres, for those of the tangent points cancel as well:
 //     C'' = (m . (VB - VA))^2 / L + a'^2 n . arm of A - b'^2 n . arm of B,     V: velocities of the centres,
 // which is what pl_one_bow adds from `along` and `over`.
 //
-// The row alone does not know how often the span has turned round: pl_joint.sum is by how much it had at the end of the step before,
+// The row alone does not know how often the run has turned round: pl_joint.sum is by how much it had at the end of the step before,
 // and a step turns it by less than a half.
 //
 // d < |e|: one rim is within the other, or both lie one upon the other and the rope crosses. No line touches both: it is loose, until
 // the end of the step in which they have parted; where it would be too short by then, it has slipped by as much. (With the slope of C
 // there, |e| / d, a rope would pull as hard as one likes. With less, what turns meanwhile is not what the row is told: in one of 200
 // tangles energy grew by 75 %.)
-// Value: free span, and what has been wound on since it was made, less what has slipped [m].
+// Value: free run, and what has been wound on since it was made, less what has slipped [m].
 #include "joints/parts.h"
 #include "world/check.h"
 #include "world/state.h"
@@ -32,8 +32,8 @@
 #define SLIPPED  target.x
 #define IS_LOOSE target.y
 
-// n, and L, of a span whose centres are d apart; `e` [m]: ra - rb.
-static plumb_vec2 span_of(plumb_vec2 d, real e, real *length)
+// n, and L, of a run whose centres are d apart; `e` [m]: ra - rb.
+static plumb_vec2 run_of(plumb_vec2 d, real e, real *length)
 {
     real apart;
     plumb_vec2 u = plumb_vec2_unit_and_magnitude(d, &apart);
@@ -50,8 +50,8 @@ static plumb_vec2 span_of(plumb_vec2 d, real e, real *length)
 static plumb_vec2 direction(const plumb_world *world, const plumb_joint_desc *d)
 {
     real length;
-    return span_of(plumb_world_way(world, d->anchor, d->anchor_b), d->radius_a - d->radius_b,
-                   &length);
+    return run_of(plumb_world_way(world, d->anchor, d->anchor_b), d->radius_a - d->radius_b,
+                  &length);
 }
 
 static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
@@ -59,7 +59,7 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
     const plumb_vec2 d = plumb_world_way(world, desc->anchor, desc->anchor_b);
     const real e = desc->radius_a - desc->radius_b;
     real length;
-    span_of(d, e, &length);
+    run_of(d, e, &length);
     if (!(length > 0)) {
         return pl_fail(
             world, PLUMB_E_GEOMETRY, fn,
@@ -70,7 +70,7 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
     return PLUMB_OK;
 }
 
-// [rad] by which the span has turned since it was made: of all the same directions what is nearest to where it was.
+// [rad] by which the run has turned since it was made: of all the same directions what is nearest to where it was.
 static double turn_of(const pl_joint *j, const pl_joint_pose *a, plumb_vec2 n)
 {
     const plumb_vec2 axis = pl_joint_axis(j, a);
@@ -83,14 +83,14 @@ static pl_row row_of(const pl_joint *j, const pl_joint_pose *a, const pl_joint_p
 {
     const double ra = (double)j->desc.radius_a, rb = (double)j->desc.radius_b;
     const real e = j->desc.radius_a - j->desc.radius_b;
-    real span;
-    const plumb_vec2 d = pl_joint_apart(a, b), n = span_of(d, e, &span), m = plumb_vec2_left(n);
+    real run;
+    const plumb_vec2 d = pl_joint_apart(a, b), n = run_of(d, e, &run), m = plumb_vec2_left(n);
     const double turned = e != 0 ? (double)e * turn_of(j, a, n) : 0;
     const double wound = ra * a->angle - rb * b->angle - turned - (double)j->SLIPPED;
     plumb_vec2 at_a = plumb_vec2_scale(j->desc.radius_a, m);
     plumb_vec2 at_b = plumb_vec2_scale(j->desc.radius_b, m);
-    if (span ==
-        0) { // what it gave is taken back: at one point, or angular momentum would come of it
+    if (run == 0) {
+        // What it gave is taken back: at one point, or angular momentum would come of it.
         const plumb_vec2 way = plumb_vec2_sub(plumb_vec2_add(d, at_b), at_a);
         at_a = plumb_vec2_add_scaled(at_a, (real)0.5, way);
         at_b = plumb_vec2_add_scaled(at_b, (real)-0.5, way);
@@ -102,10 +102,10 @@ static pl_row row_of(const pl_joint *j, const pl_joint_pose *a, const pl_joint_p
                      .bx = n.x,
                      .by = n.y,
                      .bw = plumb_vec2_cross(plumb_vec2_add(arm_b, at_b), n),
-                     .error = (real)((double)span + wound - (double)length),
+                     .error = (real)((double)run + wound - (double)length),
                      .along_a = plumb_vec2_dot(n, arm_a),
                      .along_b = plumb_vec2_dot(n, arm_b),
-                     .over = span > 0 ? 1 / span : 0,
+                     .over = run > 0 ? 1 / run : 0,
                      .most = PL_UNBOUNDED,
                      .type = PL_ROW_EQUAL };
 }
@@ -133,13 +133,13 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
 
 static void advance(pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
 {
-    real span;
+    real run;
     const real e = j->desc.radius_a - j->desc.radius_b;
-    const plumb_vec2 n = span_of(pl_joint_apart(a, b), e, &span);
+    const plumb_vec2 n = run_of(pl_joint_apart(a, b), e, &run);
     j->sum = e != 0 ? (real)turn_of(j, a, n) : 0;
     const bool was_loose = j->IS_LOOSE != 0;
-    j->IS_LOOSE = (real)(span > 0 ? 0 : 1);
-    if (was_loose && span > 0) {
+    j->IS_LOOSE = (real)(run > 0 ? 0 : 1);
+    if (was_loose && run > 0) {
         j->SLIPPED += plumb_max(row_of(j, a, b, j->desc.length).error, 0);
     }
 }
