@@ -242,9 +242,15 @@ static void strike_tangents(const plumb_world *world, const pl_impact *m, const 
                   rat * (double)a->w + (double)m->surface_speed;
     double mass = m->locked ? inverse_mass(world, m, (double)m->ny, (double)m->nx)
                             : (double)a->inv_mass + (double)b->inv_mass;
-    double k = mass + (double)a->inv_inertia * rat * rat + (double)b->inv_inertia * rbt * rbt;
+    double row_mass = 0; // between those of the points, as in the rows
+    for (uint32_t j = 0; j < m->count; ++j) {
+        const double at_a = (double)p[j].rat, at_b = (double)p[j].rbt;
+        const double k =
+            mass + (double)a->inv_inertia * at_a * at_a + (double)b->inv_inertia * at_b * at_b;
+        row_mass += k > 0 ? share[j] / k : 0;
+    }
     double bound = (double)m->friction * load;
-    double total = k > 0 ? -slip / k : 0;
+    double total = -slip * row_mass;
     total = total > bound ? bound : total < -bound ? -bound : total;
     for (uint32_t j = 0; j < m->count; ++j) {
         if (normal[j] > 0) {

@@ -158,9 +158,10 @@ static bool is_number(const plumb_property *p)
 // What a hinge has, and says alone; other members of joints are of other kinds, or go by two.
 static bool is_asked(const subject *t, const plumb_property *p)
 {
-    static const char *const others[] = { "kind",  "anchor_b", "ground_a",  "ground_b",
-                                          "axis",  "lower",    "upper",     "length",
-                                          "ratio", "pitch",    "max_force", "max_torque" };
+    static const char *const others[] = { "kind",     "anchor_b", "ground_a",  "ground_b",
+                                          "axis",     "lower",    "upper",     "length",
+                                          "ratio",    "pitch",    "max_force", "max_torque",
+                                          "radius_a", "radius_b" };
     bool asked = true;
     for (size_t i = 0; t->table == PLUMB_TABLE_JOINT && i < sizeof others / sizeof *others; ++i) {
         asked = asked && strcmp(p->name, others[i]) != 0;
