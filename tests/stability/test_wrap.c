@@ -567,7 +567,7 @@ static void characters_walk_across_the_edge(void **state)
 {
     (void)state;
     plumb_world_desc x = { .wrap_x = PERIOD };
-    same_at(&x, plumb_v2(INSIDE, 0), plumb_v2(EDGE, 0), make_walk, 170, 3e-3);
+    same_at(&x, plumb_v2(INSIDE, 0), plumb_v2(EDGE, 0), make_walk, 160, 1e-3);
 }
 
 int main(void)
