@@ -136,7 +136,8 @@ static const char *fault(run *r, char *text, size_t room)
     return wrong;
 }
 
-// Open, of 1,500 in float: 69 and 948. All that differs is whether one pair touches (PL_PAIR_TOUCHING), and not a place.
+// Open, of 1,500 in float: 69 and 948. A step that was refused for want of memory leaves a trace: one pair touches or does not
+// (PL_PAIR_TOUCHING) a step later; no place differs. Cf. test_mixed.c.
 #define FIRST 100
 
 static void test_sessions_replay(void **state)
