@@ -78,7 +78,7 @@ typedef struct plumb_joint_desc {
                                ///< right both > 0 is a rope over the tops of two wheels, both < 0 one beneath (a belt has
                                ///< one of each), and unlike signs a rope that crosses from the top of one to the bottom of
                                ///< the other; of A above B, > 0 hangs down at the right of the wheel. It does not slip:
-                               ///< a wheel takes up radius * turn, and the span leaves it where it touches. Rims are round
+                               ///< a wheel takes up radius * turn, and the free run leaves it where it touches. Rims are round
                                ///< and never run out: as many turns as come, and no end that comes off the rim. Where one rim
                                ///< comes to lie within the other (or on it, of a rope that crosses) no line touches both: the
                                ///< rope is loose until they part, and has slipped where it would be too short then
@@ -195,13 +195,13 @@ PLUMB_API int plumb_body_joints(const plumb_world *world, plumb_body body, plumb
 /// that stand where they stood. All of {0} is not valid: read one, keep it, give it back.
 typedef struct plumb_joint_memory {
     plumb_vec2 anchor_a, anchor_b; ///< [m] in the frames of A and B; the world's: in the world
-    plumb_vec2 axis;               ///< unit, in A's frame; {0}: the kind has none. Cable: its span as it was made
+    plumb_vec2 axis;               ///< unit, in A's frame; {0}: the kind has none. Cable: its free run as it was made
     plumb_vec2 offset;             ///< [m] motor: where B's anchor is to be, in A's frame. Cable: x: what has slipped
                                    ///< [m], y: 1 where no line touches both rims, else 0
     plumb_real start_a, start_b;   ///< [rad] angles of the bodies when the joint was made
     int32_t turns_a, turns_b;      ///< full turns of each since
     plumb_real kept;               ///< gear, pulley: the sum that is kept; ratchet: [rad] its tooth; cable: [rad] by which
-                                   ///< its span has turned
+                                   ///< its free run has turned
     plumb_real substep;            ///< [s] >= 0, to which the impulses belong; 0: there are none
     plumb_real impulses[6];        ///< [N s], [N m s] with which the next step starts
 } plumb_joint_memory;

@@ -63,7 +63,7 @@
     R(X, STATE, REAL, rest, UNSAID, "rad or m", ANY, 0, NO_ZERO,                                    \
       "value at which the spring is at rest")                                                       \
     R(X, STATE, REAL, length, UNSAID, "m", FROM(0, NO_END), 0, NO_ZERO,                             \
-      "distance: of rod or spring; cable: of its span; 0: as things are")                           \
+      "distance: of rod or spring; cable: of its free run; 0: as things are")                       \
     R(X, OWN, REAL, radius_a, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO,                             \
       "cable: of A's rim; > 0: to B it runs on the left, < 0: on the right; 0: it is tied there")   \
     R(X, OWN, REAL, radius_b, UNSAID, "m", FROM(-1e9, 1e9), 0, NO_ZERO,                             \

@@ -119,7 +119,7 @@ struct pl_joint {
     pl_joint_end a, b;
     plumb_vec2 axis;   // unit, in A's frame (the world's without A); distance, cable: as it was made
     plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]; cable: see cable.c
-    real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]; cable: turn of its span [rad]
+    real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]; cable: turn of its free run [rad]
     plumb_vec2 told_impulse; // [N s] on B over the last step, where it is watched
     real told_turn;          // [N m s] likewise, about B's anchor
     uint32_t strained; // 1: its reaction was beyond its bounds for events when last seen
