@@ -163,7 +163,7 @@ WIDE_PART void resolve(const bundle *c, const special *s, extra *e, bounce *r, s
     const vf bound = c->friction * (impulse[0] + impulse[1]);
     const vf total = vclamp(-both.mt * slip_at(c, e, &both, &a->now, &b->now, true), -bound, bound);
     for (int j = 0; j < 2; ++j) {
-        const vf along_t = (j == 0 ? splat(1) - both.share : both.share) * total;
+        const vf along_t = (j == 0 ? (vf)(splat(1) - both.share) : both.share) * total;
         strike(c, s, j, a, b, zero, along_t, at[j].time);
         if (e != NULL) {
             e->total[j] += impulse[j];

@@ -1,7 +1,7 @@
 -- degenerate_needles.lua - 30 needles of 1 m by 2 mm and slivers with corners of a degree fall into a bin.
 -- Fails: normals of slivers that flip, needles through the floor (Avian and Godot tell of it). Right: a heap inside.
 -- lint: allow size: thin things are what it asks
--- watchdog: allow sinking, pair-explosion: needles of 2 mm go through one another
+-- watchdog: allow sinking, tunnelling: needles of 2 mm go through one another
 scene { title = "Needles and slivers", duration = 8, seed = 9 }
 local n = param("n", 30, 1, 300)
 local steel = material { density = 7800, friction = 0.3 }
