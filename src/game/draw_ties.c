@@ -2,6 +2,7 @@
 //
 // Reads: joints, contacts. Writes: nothing. Cost: O(joints), O(contacts).
 #include "game/draw.h"
+#include "joints/joint.h"
 #include "plumb/event.h"
 #include "plumb/math.h"
 
@@ -37,14 +38,11 @@ static ends ends_of(const pl_drawing *d, const pl_joint *j)
 // From rim to rim, whose radii are drawn as well; from centre to centre where no line touches both.
 static void draw_cable(const pl_drawing *d, const pl_joint *j, const ends *e, plumb_paint paint)
 {
-    const plumb_vec2 way = plumb_vec2_sub(e->b, e->a), left = plumb_vec2_left(way);
     const real across = j->desc.radius_a - j->desc.radius_b;
-    const real square = plumb_vec2_magnitude_sq(way), free = square - across * across;
     plumb_vec2 from = e->a, to = e->b;
+    real free;
+    const plumb_vec2 n = pl_cable_run(plumb_vec2_sub(e->b, e->a), across, &free);
     if (free > 0) {
-        const plumb_vec2 n = plumb_vec2_scale(
-            1 / square,
-            plumb_vec2_add_scaled(plumb_vec2_scale(plumb_sqrt(free), way), -across, left));
         from = plumb_vec2_add_scaled(from, j->desc.radius_a, plumb_vec2_left(n));
         to = plumb_vec2_add_scaled(to, j->desc.radius_b, plumb_vec2_left(n));
     }

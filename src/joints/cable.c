@@ -32,26 +32,11 @@
 #define SLIPPED  target.x
 #define IS_LOOSE target.y
 
-// n, and L, of a run whose centres are d apart; `e` [m]: ra - rb.
-static plumb_vec2 run_of(plumb_vec2 d, real e, real *length)
-{
-    real apart;
-    plumb_vec2 u = plumb_vec2_unit_and_magnitude(d, &apart);
-    u = apart > 0 ? u : plumb_v2(1, 0);
-    if (apart <= plumb_abs(e)) {
-        *length = 0;
-        return e > 0 ? plumb_vec2_right(u) : e < 0 ? plumb_vec2_left(u) : u;
-    }
-    const real across = e / apart, along = plumb_sqrt((1 - across) * (1 + across));
-    *length = along * apart;
-    return plumb_v2(along * u.x + across * u.y, along * u.y - across * u.x);
-}
-
 static plumb_vec2 direction(const plumb_world *world, const plumb_joint_desc *d)
 {
     real length;
-    return run_of(plumb_world_way(world, d->anchor, d->anchor_b), d->radius_a - d->radius_b,
-                  &length);
+    return pl_cable_run(plumb_world_way(world, d->anchor, d->anchor_b), d->radius_a - d->radius_b,
+                        &length);
 }
 
 static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
@@ -59,7 +44,7 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
     const plumb_vec2 d = plumb_world_way(world, desc->anchor, desc->anchor_b);
     const real e = desc->radius_a - desc->radius_b;
     real length;
-    run_of(d, e, &length);
+    pl_cable_run(d, e, &length);
     if (!(length > 0)) {
         return pl_fail(
             world, PLUMB_E_GEOMETRY, fn,
@@ -84,7 +69,7 @@ static pl_row row_of(const pl_joint *j, const pl_joint_pose *a, const pl_joint_p
     const double ra = (double)j->desc.radius_a, rb = (double)j->desc.radius_b;
     const real e = j->desc.radius_a - j->desc.radius_b;
     real run;
-    const plumb_vec2 d = pl_joint_apart(a, b), n = run_of(d, e, &run), m = plumb_vec2_left(n);
+    const plumb_vec2 d = pl_joint_apart(a, b), n = pl_cable_run(d, e, &run), m = plumb_vec2_left(n);
     const double turned = e != 0 ? (double)e * turn_of(j, a, n) : 0;
     const double wound = ra * a->angle - rb * b->angle - turned - (double)j->SLIPPED;
     plumb_vec2 at_a = plumb_vec2_scale(j->desc.radius_a, m);
@@ -135,7 +120,7 @@ static void advance(pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
 {
     real run;
     const real e = j->desc.radius_a - j->desc.radius_b;
-    const plumb_vec2 n = run_of(pl_joint_apart(a, b), e, &run);
+    const plumb_vec2 n = pl_cable_run(pl_joint_apart(a, b), e, &run);
     j->sum = e != 0 ? (real)turn_of(j, a, n) : 0;
     const bool was_loose = j->IS_LOOSE != 0;
     j->IS_LOOSE = (real)(run > 0 ? 0 : 1);

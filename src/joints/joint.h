@@ -71,6 +71,21 @@ uint32_t pl_joints_awake(plumb_world *world);
 bool pl_joints_any_awake(const plumb_world *world);
 // [m] anchor of an end, in the world.
 plumb_vec2 pl_joint_anchor(const plumb_world *world, const pl_joint_end *end);
+// n, and L [m], of the free run of a cable between rims whose centres are d apart; `e` [m]: radius of A less that of B. L = 0: no line
+// touches both (cable.c). Inline: what draws a world is there without joints, too.
+static inline plumb_vec2 pl_cable_run(plumb_vec2 d, real e, real *length)
+{
+    real apart;
+    plumb_vec2 u = plumb_vec2_unit_and_magnitude(d, &apart);
+    u = apart > 0 ? u : plumb_v2(1, 0);
+    if (apart <= plumb_abs(e)) {
+        *length = 0;
+        return e > 0 ? plumb_vec2_right(u) : e < 0 ? plumb_vec2_left(u) : u;
+    }
+    const real across = e / apart, along = plumb_sqrt((1 - across) * (1 + across));
+    *length = along * apart;
+    return plumb_v2(along * u.x + across * u.y, along * u.y - across * u.x);
+}
 // [rad/s] or [m/s] of what its motor drives, if its kind has one.
 real pl_joint_motor_rate(const plumb_world *world, const pl_joint *joint);
 // Full turns, origin and poses up to date.

@@ -198,13 +198,13 @@ WIDE_INLINE void set_friction(vf total, const friction_row *r, const bundle *c, 
 // What the contact bears from now on. It slides where its points do not hold; what slides since this sweep bears less at once.
 // What bears nothing will stick if it is slow.
 WIDE_INLINE void settle_grip(bundle *c, const special *s, const extra *e, const grip *g,
-                             const friction_row *r, vf total, vf bound, body *a, body *b,
+                             const friction_row *r, vf total, vf load, body *a, body *b,
                              bool rotation)
 {
-    const vf zero = splat(0), load = c->p[0].ln + s->pull[0] + (c->p[1].ln + s->pull[1]);
+    const vm loaded = load > splat(0);
     const vm slow = vabs(slip_at(c, e, r, a, b, rotation)) <= splat(PL_SLIDES_FROM);
-    const vm slides = selm(load > zero, vabs(total) >= bound, ~slow);
-    const vm starts = (load > zero) & slides & (c->friction > g->slides);
+    const vm slides = selm(loaded, vabs(total) >= c->friction * load, ~slow);
+    const vm starts = loaded & slides & (c->friction > g->slides);
     c->friction = sel(slides, g->slides, g->sticks);
     if (any(starts)) {
         const vf most = c->friction * load;
@@ -223,12 +223,12 @@ WIDE_INLINE void solve_friction(bundle *c, const special *s, const extra *e, con
         load1 += s->pull[1];
     }
     const friction_row r = friction_row_of(p, load0, load1);
-    const vf bound = c->friction * (load0 + load1);
+    const vf load = load0 + load1, bound = c->friction * load;
     const vf wish = p[0].lt + p[1].lt - r.mt * slip_at(c, e, &r, a, b, rotation);
     const vf total = vclamp(wish, -bound, bound);
     set_friction(total, &r, c, s, p, a, b, rotation);
     if (g != NULL) {
-        settle_grip(c, s, e, g, &r, total, bound, a, b, rotation);
+        settle_grip(c, s, e, g, &r, total, load, a, b, rotation);
     }
 }
 
