@@ -21,6 +21,7 @@
 #define LAG       5    // passes; after these the normal forces that bound friction stay as they are
 #define BOUND     0.3  // of all bounds of friction: a change that is worth more passes
 #define SLIDING   0.02 // of the secant stiffness of what slides
+#define LIES      0.05 // of its radius: so near a node may be pulled into a piece from which it is on its way
 
 static pl_soft_point *points_of(const pl_soft_step *s)
 {
@@ -255,12 +256,12 @@ static bool advance(const pl_soft_obstacle *o, double x, double y, double dx, do
     const double way = sqrt(dx * dx + dy * dy);
     const double start = pl_soft_distance(o, x, y, n) - radius;
     double t = 0, d = start;
-    if (start > way) {
-        return false;
-    }
-    if (start <= 0.05 * radius) { // it lies on it: as it lies
+    if (start <= LIES * radius) { // as it lies
         *gap = start;
         return true;
+    }
+    if (start > way) {
+        return false;
     }
     for (int k = 0; k < 24 && d > 0.01 * radius; ++k) {
         t += d / way;
@@ -282,7 +283,8 @@ static bool touch(const pl_soft_step *s, const pl_soft_near *near, double h, pl_
     const double later = b->block == PL_NONE ? 0 : h;
     const double vx = p->vx + p->cx - (b->vx + later * b->ax - b->w * ry);
     const double vy = p->vy + p->cy - (b->vy + later * b->ay + b->w * rx);
-    const double reach = 1.5 * h * (fabs(vx) + fabs(vy)) + p->radius + o->radius + o->extent;
+    const double reach =
+        1.5 * h * (fabs(vx) + fabs(vy)) + (1 + LIES) * p->radius + o->radius + o->extent;
     if (rx * rx + ry * ry > reach * reach) {
         return false;
     }
