@@ -1,6 +1,7 @@
 #!/bin/bash
 # test_scenes_accuracy.sh - the reference suite: every scene of assets/scenes/accuracy keeps to the errors that it had, in float
-# and double; and bounds bite: an orbit whose force acts once a step does not keep to them.
+# and double; bounds bite: an orbit whose force acts once a step does not keep to them; and the table of its README is what is
+# measured.
 
 bin=${PLUMB_BIN:-${O:-build}/plumb}
 scenes=(assets/scenes/accuracy/*.lua)
@@ -30,3 +31,12 @@ if "$bin" check -q assets/scenes/accuracy/kepler.lua --set once=1 | grep -q '^FA
 else
     echo "not ok - an orbit by forces once a step passes"
 fi
+
+made=$(mktemp -d)
+PLUMB_BIN=$bin bash assets/scenes/accuracy/table.sh "$made/README.md"
+if diff "$made/README.md" assets/scenes/accuracy/README.md; then
+    echo "ok - the table is what table.sh measures"
+else
+    echo "not ok - the table is not what table.sh measures"
+fi
+rm -r "$made"

@@ -1,9 +1,10 @@
 #!/bin/bash
 # table.sh - measures the errors of README.md's table anew and writes them into it; run from the top of the tree.
-# A row is the scene, its formula, the name of the expect{} line that is told, and four errors.
+# A row is the scene, its formula, the name of the expect{} line that is told, and four errors. With a name of a file, into that.
 
 bin=${PLUMB_BIN:-build/plumb}
 here=assets/scenes/accuracy
+into=${1:-$here/README.md}
 columns=("" "--substeps 16" "--solver pgs" "--solver exact")
 
 for k in 0 1 2 3; do
@@ -11,7 +12,7 @@ for k in 0 1 2 3; do
     "$bin" check -q ${columns[k]} "$here"/*.lua | sed -nE \
         's/^(ok  |FAIL)  (.*)\.lua: (.*): [^:]*\.error ([^ ]+) ?([^(]*) ?\(.*/'"$k"'\t\2\t\3\t\4\t\5/p'
 done | awk -F'\t' '
-    NR == FNR { unit = $5; sub(/ +$/, "", unit); error[$1, $2, $3] = sprintf("%.2g", $4) (unit == "" ? "" : " " unit); next }
+    NR == FNR { unit = $5; sub(/ +$/, "", unit); error[$1, $2, $3] = ($4 > 0 && $4 < 1e-12 ? "< 1e-12" : sprintf("%.2g", $4)) (unit == "" ? "" : " " unit); next }
     /^\| `/ {
         split($0, cell, / \| /)
         scene = cell[1]; gsub(/[|` ]/, "", scene)
@@ -20,4 +21,4 @@ done | awk -F'\t' '
         print " |"
         next
     }
-    { print }' - "$here/README.md" > "$here/README.md.new" && mv "$here/README.md.new" "$here/README.md"
+    { print }' - "$here/README.md" > "$into.new" && mv "$into.new" "$into"
