@@ -112,7 +112,8 @@ PLUMB_API int plumb_world_softbodies(const plumb_world *world, plumb_softbody *s
 /// Changes a node: place, velocity, mass, radius. Errors: E_NULL, E_HANDLE, E_RANGE, E_NOT_FINITE, E_LOCKED.
 PLUMB_API plumb_result plumb_softbody_set_node(plumb_world *world, plumb_softbody softbody,
                                                int node, const plumb_softbody_node *value);
-/// Changes what an edge is made of; its nodes stay. With PLUMB_EDGE_TORN it is cut. Errors: the same.
+/// Changes what an edge is made of; its nodes stay. With PLUMB_EDGE_TORN it is cut, and as where one tears nothing bends over it
+/// any more, and the gas of a ring is out whose two nodes it joined. Errors: the same.
 PLUMB_API plumb_result plumb_softbody_set_edge(plumb_world *world, plumb_softbody softbody,
                                                int edge, const plumb_softbody_edge *value);
 /// Changes the gas: `pressure` and `ambient` [N/m]. Errors: the same; E_STATE: it has no ring.

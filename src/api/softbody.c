@@ -224,10 +224,14 @@ plumb_result plumb_softbody_set_edge(plumb_world *world, plumb_softbody softbody
     PL_TRY(check_index(world, __func__, "edge", edge, pl_softbody_items(s)[row].edges));
     PL_TRY(pl_softbody_check_edge(world, __func__, value));
     pl_softbody_disturb(world, row);
-    plumb_softbody_edge *to =
-        &pl_softbody_edges(s)[pl_softbody_place_of(s, row).edge + (uint32_t)edge];
+    const pl_softbody_place at = pl_softbody_place_of(s, row);
+    plumb_softbody_edge *to = &pl_softbody_edges(s)[at.edge + (uint32_t)edge];
+    const bool cut = (value->flags & ~to->flags & PLUMB_EDGE_TORN) != 0;
     PUT(to, *value, flags), PUT(to, *value, length), PUT(to, *value, stiffness);
     PUT(to, *value, damping), PUT(to, *value, break_strain), PUT(to, *value, yield_strain);
+    if (cut) {
+        pl_softbody_tear(s, &pl_softbody_items(s)[row], at, to);
+    }
     return PLUMB_OK;
 }
 

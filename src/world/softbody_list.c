@@ -54,6 +54,27 @@ void pl_softbody_remove(plumb_world *world, uint32_t row)
     world->schedule_dirty = true;
 }
 
+static bool is_edge(const plumb_softbody_edge *edge, uint32_t a, uint32_t b)
+{
+    return (edge->a == a && edge->b == b) || (edge->a == b && edge->b == a);
+}
+
+void pl_softbody_tear(const pl_softbodies *all, pl_softbody *item, pl_softbody_place at,
+                      const plumb_softbody_edge *torn)
+{
+    for (uint32_t k = 0; k < item->bends; ++k) {
+        plumb_softbody_bend *b = &pl_softbody_bends(all)[at.bend + k];
+        const bool over = is_edge(torn, b->a, b->b) || is_edge(torn, b->b, b->c);
+        b->stiffness = over ? 0 : b->stiffness;
+    }
+    const uint32_t *ring = pl_softbody_rings(all) + at.ring;
+    for (uint32_t k = 0; k < item->ring; ++k) {
+        if (is_edge(torn, ring[k], ring[(k + 1) % item->ring])) {
+            item->pressure = item->ambient = 0;
+        }
+    }
+}
+
 void pl_softbody_drop_pin(plumb_world *world, uint32_t row, uint32_t pin)
 {
     pl_softbodies *s = &world->softbodies;

@@ -141,6 +141,62 @@ static void what_goes_takes_its_pins_along(void **state)
     assert_int_equal(plumb_world_softbodies(w, NULL, 0), 1);
 }
 
+// What is cut does as what tears: the gas is out where the ring is open, and nothing bends there. A skin with a thread across,
+// and a rod through it, in space: it flies no faster than it did.
+static void what_is_cut_is_open(void **state)
+{
+    (void)state;
+    for (int cut = 0; cut < 13; ++cut) {
+        plumb_world *w;
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w),
+                         PLUMB_OK);
+        plumb_softbody_node n[12] = { 0 };
+        plumb_softbody_edge e[13] = { 0 };
+        plumb_softbody_bend b[12] = { 0 };
+        uint32_t ring[12];
+        for (uint32_t i = 0; i < 12; ++i) {
+            const double at = 0.523598775598 * i;
+            n[i] = (plumb_softbody_node){ .position = { R(cos(at)), R(sin(at)) }, .mass = R(0.1) };
+            e[i] = (plumb_softbody_edge){ .a = i, .b = (i + 1) % 12, .stiffness = 5000 };
+            b[i] = (plumb_softbody_bend){
+                .a = i, .b = (i + 1) % 12, .c = (i + 2) % 12, .stiffness = 1, .angle = R(0.52)
+            };
+            ring[i] = i;
+        }
+        e[12] = (plumb_softbody_edge){ .a = 2, .b = 8, .stiffness = 100 };
+        const plumb_softbody s = plumb_softbody_create(w, &(plumb_softbody_desc){ .nodes = n,
+                                                                                  .edges = e,
+                                                                                  .bends = b,
+                                                                                  .ring = ring,
+                                                                                  .node_count = 12,
+                                                                                  .edge_count = 13,
+                                                                                  .bend_count = 12,
+                                                                                  .ring_count = 12,
+                                                                                  .pressure = 500,
+                                                                                  .damping = 5 });
+        run(w, 120);
+        plumb_softbody_desc d;
+        assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+        plumb_softbody_edge torn = d.edges[cut];
+        torn.flags |= PLUMB_EDGE_TORN;
+        assert_int_equal(plumb_softbody_set_edge(w, s, cut, &torn), PLUMB_OK);
+        assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+        assert_true((d.pressure == 0) == (cut < 12) && d.ambient == 0);
+        for (int i = 0; i < 12; ++i) {
+            const bool over = cut < 12 && (i == cut || (i + 1) % 12 == cut);
+            assert_true((d.bends[i].stiffness == 0) == over);
+        }
+        run(w, 60);
+        plumb_softbody_state m;
+        assert_int_equal(plumb_softbody_measure(w, s, &m), PLUMB_OK);
+        assert_true((double)m.kinetic < 20);
+        if (cut == 12) {
+            assert_true((double)m.pressure > 100);
+        }
+        plumb_world_destroy(w);
+    }
+}
+
 static void an_image_is_taken_while_it_tears(void **state)
 {
     fixture *f = *state;
@@ -548,6 +604,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(sleep_by_a_call, set_up, tear_down),
         cmocka_unit_test_setup_teardown(made_asleep, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_did_not_settle_is_told, set_up, tear_down),
+        cmocka_unit_test(what_is_cut_is_open),
         cmocka_unit_test(threads_and_widths_change_no_bit),
         cmocka_unit_test(recordings_have_it),
         cmocka_unit_test(any_allocation_may_fail),
