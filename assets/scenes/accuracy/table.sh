@@ -13,8 +13,7 @@ for k in 0 1 2 3; do
         's/^(ok  |FAIL)  (.*)\.lua: (.*): [^:]*\.error ([^ ]+) ?([^(]*) ?\(.*/'"$k"'\t\2\t\3\t\4\t\5/p'
 done | awk -F'\t' '
     NR == FNR { unit = $5; sub(/ +$/, "", unit); error[$1, $2, $3] = ($4 > 0 && $4 < 1e-12 ? "< 1e-12" : sprintf("%.2g", $4)) (unit == "" ? "" : " " unit); next }
-    /^\| `/ {
-        split($0, cell, / \| /)
+    /^\| `/ && split($0, cell, / \| /) == 7 {
         scene = cell[1]; gsub(/[|` ]/, "", scene)
         printf "%s | %s | %s", cell[1], cell[2], cell[3]
         for (k = 0; k < 4; k++) printf " | %s", ((k, scene, cell[3]) in error) ? error[k, scene, cell[3]] : "not told"
