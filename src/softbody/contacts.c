@@ -21,8 +21,7 @@
 #define LAG       5    // passes; after these the normal forces that bound friction stay as they are
 #define BOUND     0.3  // of all bounds of friction: a change that is worth more passes
 #define SLIDING   0.02 // of the secant stiffness of what slides
-#define LIES                                                                                       \
-    0.05 // of its radius: so near a node may be pulled into a piece from which it is on its way
+#define LIES      0.05 // of its radius: nearer, a node has its contact wherever it is on its way to
 
 static pl_soft_point *points_of(const pl_soft_step *s)
 {

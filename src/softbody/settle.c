@@ -1,7 +1,7 @@
 // settle.c - what a step leaves in edges: tension, what tears, what yields.
 //
 // Reads: what edges pulled with. Writes: edges, bends and gas of what tears. Order: when the step is over.
-// Cost: O(edges), and O(bends) for one that tears.
+// Cost: O(edges), and O(bends and ring) for one that tears.
 #include "softbody/softbody.h"
 #include "world/softbody_list.h"
 

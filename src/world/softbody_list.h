@@ -10,7 +10,7 @@ uint32_t pl_softbody_find(const plumb_world *world, plumb_softbody softbody);
 void pl_softbody_remove(plumb_world *world, uint32_t row);
 // Takes a pin away, whose soft body is `row`; the others keep their order.
 void pl_softbody_drop_pin(plumb_world *world, uint32_t row, uint32_t pin);
-// An edge has torn or was cut: nothing bends over it any more, and where it is one of the ring, the gas is out. O(bends).
+// An edge has torn or was cut: nothing bends over it any more, and where it is one of the ring, the gas is out. O(bends and ring).
 void pl_softbody_tear(const pl_softbodies *all, pl_softbody *item, pl_softbody_place at,
                       const plumb_softbody_edge *torn);
 // A body goes: what it holds is free.

@@ -17,7 +17,8 @@ for row in "${rows[@]}"; do
             "$bin" check -q --precision double --solver $solver --dt 1/$hz "$here/${row%%:*}.lua" |
                 grep -F ".lua:${row#*:}" | sed -nE 's/.*\.error ([^ ]+) .*/\1/p' | head -1
         done | awk 'NR == 1 { printf " | %.1e:", $1 }
-            NR > 1 { printf $1 < 1e-9 ? " rounding" : " %.2f", log(last / $1) / log(2) } { last = $1 }' | sed 's/ rounding rounding/ rounding/g; s/ rounding rounding/ rounding/'
+            NR > 1 && $1 >= 1e-9 { printf " %.2f", log(last / $1) / log(2) } { last = $1 }
+            END { if (last < 1e-9) printf " rounding" }'
     done
     echo " |"
 done
