@@ -65,8 +65,8 @@
 #define WIDTHS(K, fn)       K(fn##_w4) K(fn##_w8) K(fn##_w16)
 
 #if !PL_HAS(RESTITUTION)
-WORLD(pl_impacts_prepare)
-WORLD(pl_impacts_prepare_classic)
+VOID(pl_impacts_prepare, plumb_world *world, near_real dt)
+VOID(pl_impacts_prepare_classic, plumb_world *world, near_real dt)
 VOID(pl_impacts_run, plumb_world *world, near_real h)
 VOID(pl_impacts_run_on, plumb_world *world, near_real h)
 VOID(pl_impacts_tell, plumb_world *world, near_real h)

@@ -6,6 +6,7 @@
 
 #include "core/sort.h"
 #include "world/state.h"
+#include "world/wrap.h"
 
 #include <string.h>
 
@@ -339,6 +340,9 @@ static bool merge(plumb_world *world, const pl_pair_listener *listener, const pl
     }
     if (changed) {
         note_sizes(&g, &broad->pairs);
+        pl_buffer items = broad->pairs.items;
+        broad->pairs.items = broad->pairs.old_items;
+        broad->pairs.old_items = items;
     }
     return changed;
 }
@@ -366,12 +370,7 @@ bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener)
         broad->stale = true; // what sensors see may have been taken out
         return false;
     }
-    bool changed = merge(world, listener, &sorted, whole ? NULL : broad->left_marks.data);
-    if (changed) {
-        pl_buffer items = list->items;
-        list->items = list->old_items;
-        list->old_items = items;
-    }
+    const bool changed = merge(world, listener, &sorted, whole ? NULL : broad->left_marks.data);
     broad->rebuilds += changed || whole || world->sensor_pieces > 0; // or what sensors see
     world->rows_moved |= broad->stale; // contacts of what woke do not know their rows
     world->parts.buried = false;
@@ -379,4 +378,83 @@ bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener)
     broad->stale = broad->emptied = false;
     pl_broad_forget_left(broad);
     return true;
+}
+
+//---- pairs that are sought (narrow/struck.c) ---------------------------------------------------------
+
+static pl_pair *find_sought(const plumb_world *world, const pl_keyed *sought)
+{
+    return pl_pairs_find_one(world, (uint32_t)(sought->key >> 32), (uint32_t)sought->key);
+}
+
+bool pl_pairs_seek(plumb_world *world, const pl_keyed *sought, uint32_t count)
+{
+    pl_broad *broad = &world->broad;
+    pl_sorted sorted;
+    if (!pl_buffer_reserve(&world->memory, &broad->found, count * sizeof(pl_found))) {
+        return false;
+    }
+    broad->found_count = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (find_sought(world, &sought[i]) == NULL) {
+            ((pl_found *)broad->found.data)[broad->found_count++] =
+                (pl_found){ (uint32_t)(sought[i].key >> 32), (uint32_t)sought[i].key };
+        }
+    }
+    if (!pl_pairs_sort(world, &sorted) || !reserve_lists(world)) {
+        return false;
+    }
+    broad->rebuilds += merge(world, NULL, &sorted, broad->left_marks.data);
+    for (uint32_t i = 0; i < count; ++i) {
+        find_sought(world, &sought[i])->flags |= PL_PAIR_SOUGHT;
+    }
+    return true;
+}
+
+void pl_pairs_seek_no_more(plumb_world *world, const pl_keyed *sought, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        pl_pair *pair = find_sought(world, &sought[i]);
+        if (pair != NULL) {
+            pair->flags &= ~PL_PAIR_SOUGHT;
+        }
+    }
+}
+
+// Closes up the list without the pairs that are PL_PAIR_SOUGHT.
+static void take_out_sought(pl_pair_list *list)
+{
+    pl_pair *pairs = pl_pairs(list);
+    uint32_t to = 0;
+    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            const uint32_t first = list->first[a][b], end = first + list->size[a][b];
+            list->first[a][b] = to;
+            for (uint32_t i = first; i < end; ++i) {
+                if ((pairs[i].flags & PL_PAIR_SOUGHT) == 0) {
+                    pairs[to++] = pairs[i];
+                }
+            }
+            list->size[a][b] = to - list->first[a][b];
+        }
+    }
+    list->count = to;
+}
+
+void pl_pairs_undo_seek(plumb_world *world, const pl_keyed *sought, uint32_t count)
+{
+    const pl_box *fat = world->pieces.fat;
+    bool any = false;
+    pl_pairs_seek_no_more(world, sought, count);
+    for (uint32_t i = 0; i < count && !pl_is_wrapped(world); ++i) {
+        pl_pair *pair = find_sought(world, &sought[i]);
+        if (pair != NULL && !pl_boxes_overlap(&fat[pair->a], &fat[pair->b])) {
+            pair->flags |= PL_PAIR_SOUGHT;
+            any = true;
+        }
+    }
+    if (any) {
+        take_out_sought(&world->broad.pairs);
+        ++world->broad.rebuilds;
+    }
 }

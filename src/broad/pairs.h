@@ -3,6 +3,7 @@
 #define PL_PAIRS_H
 
 #include "broad/broad.h"
+#include "core/sort.h"
 
 typedef struct pl_found {
     uint32_t low, high; // piece slots; of broad->sensed: sensor, other
@@ -11,6 +12,14 @@ typedef struct pl_found {
 // Brings the pair list up to date with the grids: around the pieces that left their boxes, or from
 // nothing when the list is stale. False when out of memory; the old list then stands.
 bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener);
+
+// Adds pairs (their keys are those of pl_pair_key) whose boxes do not overlap, unless they are there; all of them are
+// PL_PAIR_SOUGHT then. False when out of memory.
+bool pl_pairs_seek(plumb_world *world, const pl_keyed *sought, uint32_t count);
+// They are so no more; those that were added stay, as if their boxes overlapped.
+void pl_pairs_seek_no_more(plumb_world *world, const pl_keyed *sought, uint32_t count);
+// The step is refused: those go.
+void pl_pairs_undo_seek(plumb_world *world, const pl_keyed *sought, uint32_t count);
 
 // The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).
 pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);

@@ -80,7 +80,7 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
                                     .turning = turns ? e->turning_count++ : PL_NONE,
                                     .slot = { pl_solver_slot(solver, m->body_a, movable),
                                               pl_solver_slot(solver, m->body_b, movable) },
-                                    .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
+                                    .row_count = 2u * m->count + (m->rolling > 0 ? 1 : 0) };
     }
     const uint32_t *grouped = world->joints.plan.grouped.data;
     for (uint32_t i = 0; i < joints; ++i) {

@@ -376,7 +376,7 @@ uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_face_point *
     double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
     m->nx = (near_real)(sign * (c * f->nx - s * f->ny));
     m->ny = (near_real)(sign * (s * f->nx + c * f->ny));
-    m->count = kept;
+    m->count = (uint16_t)kept;
     m->met = (uint16_t)((m->met & ~PL_MET_TURNS) | (v->own_is_a ? PL_MET_TURNS_A : PL_MET_TURNS_B));
     return kept;
 }

@@ -14,7 +14,9 @@
 //    motion again, so that the impact falls into the right substep, with the normal and arms of its moment.
 //
 // The first impact of a body turns it aside: by those that are there as the step begins its way is known, and what it
-// would meet after one that lies ahead is looked at once more, along the way that it takes from there. Friction, and what is third on its way, are left to the solver and the sweeps of continuous/.
+// would meet after one that lies ahead is looked at once more, along the way that it takes from there; and so on, one
+// behind the other (IMPACTS). Whom such a way leads to without there being a contact is sought then (struck.c). Friction, and
+// what is third on its way, are left to the solver and the sweeps of continuous/.
 //
 // The ground's internal edges judge the manifold of that moment before it is counted back (internal_edges/correct.c).
 //
@@ -33,7 +35,9 @@
 
 // Steps of Newton's method: of tumbling boxes nine of ten contacts that are found by it are found in two. A sweep costs
 // as much as six.
-#define ROUNDS 6
+#define ROUNDS 8
+// Impacts one behind the other of which each turns another body.
+#define IMPACTS 16
 // So many sweeps are worth a thread.
 #define LEAST 16
 
@@ -44,9 +48,15 @@ double pl_ahead_horizon(const plumb_world *world, real dt)
     return (double)dt * (relaxes ? 1 + 1 / (double)world->desc.substeps : 1);
 }
 
+uint8_t pl_ahead_moment(const plumb_world *world, double time)
+{
+    const double moment = PL_WINDOW_UNIT * pl_lesser(time * pl_ahead_horizon(world, 1), 1);
+    return moment > 1 ? (uint8_t)moment : 1;
+}
+
 static pl_path free_path(pl_motion flight)
 {
-    return (pl_path){ .flight = flight, .impact = PL_SWEEP_NEVER };
+    return (pl_path){ .flight = flight };
 }
 
 // Whether a point reaches the plane of its manifold.
@@ -189,18 +199,24 @@ static void look_at_open(pl_looking *l)
 
 //---- which contacts are looked at ----------------------------------------------------------------
 
-static bool list(pl_looking *l, uint32_t manifold)
+// Lists candidate i.
+static bool list(pl_looking *l, uint32_t i)
 {
-    if (!pl_buffer_reserve(&l->world->memory, &l->ahead->items,
-                           ((size_t)l->ahead->count + 1) * sizeof(pl_toi))) {
+    pl_lookahead *ahead = l->ahead;
+    if (!pl_buffer_reserve(&l->world->memory, &ahead->items,
+                           ((size_t)ahead->count + 1) * sizeof(pl_toi))) {
         return false;
     }
+    const uint32_t candidate = ((const uint32_t *)l->narrow->candidates.data)[i];
+    const uint32_t manifold = candidate & PL_CANDIDATE_PLACE;
     const pl_manifold *m = &pl_manifolds(l->narrow)[manifold];
-    pl_toi *item = &pl_looking_items(l->ahead)[l->ahead->count++]; // the rest comes as it is known
+    pl_toi *item = &pl_looking_items(ahead)[ahead->count++]; // the rest comes as it is known
     item->verdict = PL_TOI_OPEN;
     item->pair = m->pair;
     item->manifold = manifold;
+    item->sought = (candidate & PL_CANDIDATE_SOUGHT) != 0;
     item->paths = pl_looking_paths(l, m);
+    ((uint32_t *)ahead->listed.data)[i] = ahead->count;
     return true;
 }
 
@@ -223,7 +239,8 @@ static bool claim_bodies(pl_looking *l)
                 candidates[i] &= ~PL_CANDIDATE_ACTS;
             }
         }
-        if ((candidates[i] & (PL_CANDIDATE_ACTS | PL_CANDIDATE_BOUNCES)) != 0) {
+        if ((candidates[i] & (PL_CANDIDATE_ACTS | PL_CANDIDATE_BOUNCES | PL_CANDIDATE_SOUGHT)) !=
+            0) {
             pl_looking_claim(l, ends[place].a);
             pl_looking_claim(l, ends[place].b);
             any = true;
@@ -232,19 +249,24 @@ static bool claim_bodies(pl_looking *l)
     return any;
 }
 
+// Whether a point reaches the plane at a time, on the ways that impacts turn.
+static bool reaches_at(const pl_manifold *m, const pl_path *a, const pl_path *b, double time)
+{
+    return time > 0 && time <= 1 && reaches(m, pl_path_at(a, time), pl_path_at(b, time));
+}
+
 static bool reaches_turned(pl_looking *l, const pl_manifold *m)
 {
     const pl_path *a = pl_looking_path(l, m->body_a), *b = pl_looking_path(l, m->body_b);
-    const double at[3] = { a->impact, b->impact, 1 };
-    bool acts = false;
-    for (int i = 0; i < 3; ++i) {
-        acts = acts ||
-               (at[i] > 0 && at[i] <= 1 && reaches(m, pl_path_at(a, at[i]), pl_path_at(b, at[i])));
+    bool acts = reaches_at(m, a, b, 1);
+    for (int i = 0; i < PL_TURNS && !acts; ++i) {
+        acts = (i < a->turns && reaches_at(m, a, b, a->time[i])) ||
+               (i < b->turns && reaches_at(m, a, b, b->time[i]));
     }
     return acts;
 }
 
-// Lists the candidates whose planes act, in free flight or where a strike turns it.
+// Lists the candidates whose planes act, in free flight or where a strike turns it, and what is sought.
 static bool list_acting(pl_looking *l)
 {
     const uint32_t *candidates = l->narrow->candidates.data;
@@ -256,44 +278,50 @@ static bool list_acting(pl_looking *l)
         }
         const bool struck =
             pl_looking_is_struck(l, ends[place].a) || pl_looking_is_struck(l, ends[place].b);
-        if (((candidates[i] & PL_CANDIDATE_ACTS) != 0 ||
+        if (((candidates[i] & (PL_CANDIDATE_ACTS | PL_CANDIDATE_SOUGHT)) != 0 ||
              (struck && reaches_turned(l, &pl_manifolds(l->narrow)[place]))) &&
-            !list(l, place)) {
+            !list(l, i)) {
             return false;
         }
     }
-    l->listed_first = l->ahead->count;
     return true;
 }
 
-// What comes after the first impact of a body is due again, by the way that the body takes from there.
-static bool list_again(pl_looking *l)
+// What comes after an impact of a body is due again, by the way that the body takes from there. Sets whether anything is.
+static bool list_again(pl_looking *l, bool *any)
 {
     const uint32_t *candidates = l->narrow->candidates.data;
+    const uint32_t *listed = l->ahead->listed.data;
     const pl_ends *ends = l->narrow->ends.data;
-    const uint32_t listed = l->listed_first;
-    uint32_t next = 0; // of those that are listed: they are candidates, in order
+    *any = false;
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
+        const uint32_t place = candidates[i] & PL_CANDIDATE_PLACE;
         if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0) {
             continue;
         }
-        const uint32_t place = candidates[i] & PL_CANDIDATE_PLACE;
-        pl_toi *item = &pl_looking_items(l->ahead)[next];
-        const bool is_listed = next < listed && item->manifold == place;
-        next += is_listed;
-        const bool meets =
-            is_listed && (item->verdict == PL_TOI_HIT || item->verdict == PL_TOI_KEEPS);
-        const double before = meets ? item->time : PL_SWEEP_NEVER;
-        if (!pl_looking_is_turned(l, ends[place].a, before) &&
-            !pl_looking_is_turned(l, ends[place].b, before)) {
+        if (!pl_looking_is_changed(l, ends[place].a) && !pl_looking_is_changed(l, ends[place].b)) {
             continue;
         }
         const pl_manifold *m = &pl_manifolds(l->narrow)[place];
-        if (is_listed) {
+        if (listed[i] == 0) {
+            if (reaches_turned(l, m)) {
+                *any = true;
+                if (!list(l, i)) {
+                    return false;
+                }
+            }
+            continue;
+        }
+        pl_toi *item = &pl_looking_items(l->ahead)[listed[i] - 1];
+        const bool meets = item->verdict == PL_TOI_HIT || item->verdict == PL_TOI_KEEPS;
+        const double before = meets ? item->meets : PL_SWEEP_NEVER;
+        if (!pl_looking_is_same_way(&item->paths.of[0], pl_looking_path(l, ends[place].a),
+                                    before) ||
+            !pl_looking_is_same_way(&item->paths.of[1], pl_looking_path(l, ends[place].b),
+                                    before)) {
             item->paths = pl_looking_paths(l, m);
             item->verdict = PL_TOI_OPEN;
-        } else if (reaches_turned(l, m) && !list(l, place)) {
-            return false;
+            *any = true;
         }
     }
     return true;
@@ -302,12 +330,13 @@ static bool list_again(pl_looking *l)
 //---- the pass ------------------------------------------------------------------------------------
 
 // Room for the bodies of all candidates, and for whatever kernels are asked.
-static bool reserve(plumb_world *world, pl_lookahead *ahead)
+static bool reserve(plumb_world *world, pl_lookahead *ahead, uint32_t candidates)
 {
     pl_memory *memory = &world->memory;
     const size_t movable = (size_t)world->dynamic_count + world->kinematic_count;
     return pl_buffer_reserve(memory, &ahead->map, movable * sizeof(uint32_t)) &&
-           pl_buffer_reserve(memory, &ahead->paths, movable * sizeof(pl_way));
+           pl_buffer_reserve(memory, &ahead->paths, movable * sizeof(pl_way)) &&
+           pl_buffer_reserve(memory, &ahead->listed, candidates * sizeof(uint32_t));
 }
 
 static bool reserve_lists(plumb_world *world, pl_lookahead *ahead)
@@ -335,6 +364,7 @@ static pl_looking open_look(plumb_world *world, const pl_narrow_input *in, real 
                      .map = ahead->map.data,
                      .all = ahead->paths.data };
     memset(l.map, 0, l.movable * sizeof(uint32_t));
+    memset(ahead->listed.data, 0, narrow->candidate_count * sizeof(uint32_t));
     return l;
 }
 
@@ -345,7 +375,7 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
     if (narrow->candidate_count == 0) {
         return true;
     }
-    if (!reserve(world, ahead)) {
+    if (!reserve(world, ahead, narrow->candidate_count)) {
         return false;
     }
     pl_looking l = open_look(world, in, dt, narrow);
@@ -356,13 +386,23 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
     if (!list_acting(&l) || !reserve_lists(world, ahead)) {
         return false;
     }
-    look_at_open(&l);
-    pl_looking_note_meetings(&l);
-    if (l.any_turned) {
-        if (!list_again(&l) || !reserve_lists(world, ahead)) {
+    const int impacts = narrow->any_elastic ? IMPACTS : 1;
+    bool any = true;
+    for (int i = 0; any && i < impacts; ++i) {
+        look_at_open(&l);
+        if (!pl_looking_note_meetings(&l) || !list_again(&l, &any) ||
+            !reserve_lists(world, ahead)) {
             return false;
         }
+    }
+    if (any) { // the last word is that of the ways as they are now
         look_at_open(&l);
+    }
+    if (narrow->any_elastic) {
+        pl_looking_expire(&l);
+    }
+    if (narrow == &world->narrow && !pl_looking_seek(&l)) {
+        return false;
     }
     pl_looking_settle(&l);
     return true;
@@ -379,5 +419,9 @@ void pl_ahead_free(pl_memory *memory, pl_lookahead *ahead)
     pl_buffer_free(memory, &ahead->kept);
     pl_buffer_free(memory, &ahead->map);
     pl_buffer_free(memory, &ahead->paths);
+    pl_buffer_free(memory, &ahead->listed);
+    pl_buffer_free(memory, &ahead->meetings);
+    pl_buffer_free(memory, &ahead->sought);
+    pl_buffer_free(memory, &ahead->strays);
     *ahead = (pl_lookahead){ 0 };
 }

@@ -11,6 +11,9 @@
 // [s] from the start of the step within which a contact may act.
 double pl_ahead_horizon(const plumb_world *world, real dt);
 
+// A share of the horizon in PL_WINDOW_UNIT, not 0.
+uint8_t pl_ahead_moment(const plumb_world *world, double time);
+
 // Looks at the candidates of `narrow`. Contacts of pieces that will not meet within the step, nor come near one
 // another, are taken out; others that doubt is about are made for the moment at which the pieces meet or are nearest. False
 // when out of memory. Cost: O(candidates); a sweep for each that closes its gap while it moves aside or turns.

@@ -230,7 +230,9 @@ static inline void emit_lane(pl_pair *pair, pl_manifold *m, near_real limit,
 {
     const bool both = m->point[0].separation < limit && m->point[1].separation < limit;
     const bool same = pair->feature[0] == feature[0] && pair->feature[1] == feature[1];
-    m->count = both && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature);
+    m->count =
+        (uint16_t)(both && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature));
+    m->waits = m->ends = 0;
     m->disabled = 0;
     m->before = pair->manifold;
     m->body_a = pair->body_a;
@@ -320,6 +322,18 @@ static inline void note_restitutions(pl_narrow *out, vm here, vf restitution)
     }
 }
 
+// The lanes of pairs that are PL_PAIR_SOUGHT.
+static inline vm sought_lanes(const lanes *l, const pl_narrow_input *in)
+{
+    pl_lane sought[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        sought[i] = (in->pairs[l->pair[i]].flags & PL_PAIR_SOUGHT) != 0 ? -1 : 0;
+    }
+    vm out;
+    memcpy(&out, sought, sizeof out);
+    return out;
+}
+
 // Appends the manifolds of `count` lanes, straight to where they stay.
 WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in, uint32_t count,
                           pl_narrow *out)
@@ -342,6 +356,8 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     closing = sel(restitution > splat(in->elastic_above), speed,
                   closing); // it may come back from another impact
     limit = vmax(limit, limit + closing);
+    const vm sought = in->seeks ? sought_lanes(l, in) : (vm){ 0 };
+    limit = sel(sought, splat(PL_APART), limit);
 
     if (!any((t->sep[0] < limit) | (t->sep[1] < limit))) {
         for (uint32_t i = 0; i < count; ++i) {
@@ -377,9 +393,9 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     const vm ahead = lanes_ahead(l, t, in, restitution);
     const vm acts = lanes_act(l, t, in, (const vf(*)[4])arms, ahead);
     const vm notes = (~ahead & (pl_lane)PL_CANDIDATE_STRIKES) |
-                     (acts & (pl_lane)PL_CANDIDATE_ACTS) |
+                     (acts & (pl_lane)PL_CANDIDATE_ACTS) | (sought & (pl_lane)PL_CANDIDATE_SOUGHT) |
                      ((restitution > zero) & (pl_lane)PL_CANDIDATE_BOUNCES);
-    const vm noted = here & (ahead | acts);
+    const vm noted = here & (ahead | acts | (restitution * restitution > splat(PL_IMPACT_KEPT)));
     const bool some_noted = any(noted);
     out->any_friction |= any(here & (friction > zero));
     if (any(here & (restitution > zero))) {

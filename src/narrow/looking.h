@@ -9,6 +9,11 @@ typedef struct pl_way {
     pl_path path;
     bool claimed; // impacts of it are looked for: of others nobody will ask
     bool struck;  // one turns it as the step begins
+    bool bounces; // one that throws it back does
+    bool joined;  // joints hold it: where it goes after an impact is theirs to say
+    bool changed; // it is another since its contacts were looked at
+    uint32_t row;
+    uint64_t before; // digest of the way of then (turns.c)
 } pl_way;
 
 typedef struct pl_looking {
@@ -21,9 +26,7 @@ typedef struct pl_looking {
     uint32_t *map;    // of a movable row: 1 + the place of its way; 0: nobody has asked for it
     pl_way *all;      // ways
     uint32_t way_count;
-    bool strikes_noted;    // what turns bodies from now on are impacts that lie ahead
-    bool any_turned;       // these have turned a body
-    uint32_t listed_first; // items: those before any impact was known
+    bool strikes_noted; // what turns bodies from now on are impacts that lie ahead
 } pl_looking;
 
 static inline pl_toi *pl_looking_items(const pl_lookahead *ahead)
@@ -43,11 +46,13 @@ static inline pl_way *pl_looking_known(const pl_looking *l, uint32_t row)
     return row < l->movable && l->map[row] != 0 ? &l->all[l->map[row] - 1] : NULL;
 }
 
-// Whether an impact at this time may be the first that turns it.
-static inline bool pl_looking_may_turn(const pl_looking *l, uint32_t row, double time)
+// Whether an impact at this time may turn it: the first one, or where both bounce also one behind others.
+static inline bool pl_looking_may_turn(const pl_looking *l, uint32_t row, double time, bool elastic)
 {
     const pl_way *way = pl_looking_known(l, row);
-    return way != NULL && way->claimed && time < way->path.impact;
+    return way != NULL && way->claimed &&
+           (way->path.turns == 0 || (elastic && !way->joined && way->path.turns < PL_TURNS &&
+                                     time > way->path.time[way->path.turns - 1]));
 }
 
 // Whether an impact turns it aside as the step begins.
@@ -57,11 +62,18 @@ static inline bool pl_looking_is_struck(const pl_looking *l, uint32_t row)
     return way != NULL && way->struck;
 }
 
-// Whether another one does, before this time.
-static inline bool pl_looking_is_turned(const pl_looking *l, uint32_t row, double before)
+// Whether its way has changed.
+static inline bool pl_looking_is_changed(const pl_looking *l, uint32_t row)
 {
     const pl_way *way = pl_looking_known(l, row);
-    return way != NULL && !way->struck && way->path.impact < before;
+    return way != NULL && way->changed;
+}
+
+// Whether an impact throws it back within the step.
+static inline bool pl_looking_bounces(const pl_looking *l, uint32_t row)
+{
+    const pl_way *way = pl_looking_known(l, row);
+    return way != NULL && way->bounces && way->path.turns > 0;
 }
 
 // Bodies are asked for again and again: each flight is computed once.
@@ -88,9 +100,22 @@ static inline const pl_path *pl_looking_path(pl_looking *l, uint32_t row)
 }
 
 pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m);
-// The first impact of each claimed body: by the contacts that are there already, then by those that were found to meet.
+// Impacts of claimed bodies: by the contacts that are there already; then, made anew, by those that were found to meet
+// on the ways that lead there. False when out of memory.
 void pl_looking_note_strikes(pl_looking *l);
-void pl_looking_note_meetings(pl_looking *l);
+bool pl_looking_note_meetings(pl_looking *l);
+// Whether two ways are the same until a time.
+uint64_t pl_looking_digest(const pl_path *p); // tells ways with other turns apart; 0 of one without
+bool pl_looking_is_same_way(const pl_path *p, const pl_path *q, double time);
+
+//---- expire.c: planes that cease to act --------------------------------------------------------------
+
+void pl_looking_expire(pl_looking *l);
+
+//---- struck.c: what impacts throw at what has no contact with it --------------------------------------
+
+// Notes the pairs that meet on the ways that impacts turn and have no manifold. False when out of memory.
+bool pl_looking_seek(pl_looking *l);
 
 //---- settle.c: what becomes of the manifolds ----------------------------------------------------------
 

@@ -186,6 +186,7 @@ bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                                  .dt = (near_real)dt,
                                  .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
                                  .pairs = pl_pairs(list),
+                                 .seeks = world->lookahead.sought_count > 0,
                                  .wrapped = pl_is_wrapped(world),
                                  .wrap_x = world->desc.wrap_x,
                                  .wrap_y = world->desc.wrap_y,

@@ -15,6 +15,7 @@ typedef struct pl_narrow_input {
     near_real dt;                             // [s] elastic pairs look ahead this long
     near_real elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
     pl_pair *pairs;          // the whole list
+    bool seeks;              // some are PL_PAIR_SOUGHT
     bool wrapped;            // the world wraps around: the nearest images meet
     plumb_real wrap_x, wrap_y; // [m] its periods; 0: none
     // What the bodies do until the horizon, where gravity is all that acts on them (else `plain` is false, and every

@@ -121,10 +121,10 @@ static double nearest_on_leg(pl_sweep *s, double from, pl_nearest *out)
 }
 
 // First to the contact: most that get here meet, or pass far to one side, which is told at once.
-pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
+pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, int leg, double near)
 {
     pl_pair_approach best = { .kind = PL_APPROACH_NONE, .time = PL_SWEEP_NEVER };
-    for (int i = 0; i < e->paths->legs; ++i) {
+    for (int i = leg; i < e->paths->legs; ++i) {
         const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
         pl_swept a, b;
         put_leg(&a, e, 0, from, to);

@@ -1,5 +1,4 @@
-// path.h - where bodies will be within the step, as far as its start can tell: they fly on, and their first impact
-// turns them aside.
+// path.h - where bodies will be within the step, as far as its start can tell: they fly on, and impacts turn them aside.
 #ifndef PL_NARROW_PATH_H
 #define PL_NARROW_PATH_H
 
@@ -15,11 +14,15 @@ typedef struct pl_motion {
     double x, y, turn;
 } pl_motion;
 
+// Impacts within a step that are known of a body, at the most. What turns it after these is left to the solver.
+#define PL_TURNS 4
+
 // A body's way; times are shares of the horizon, the span that is looked ahead.
 typedef struct pl_path {
     pl_motion flight; // over the horizon, if nothing is in the way
-    double impact;    // when its first impact comes; PL_SWEEP_NEVER: not within the horizon
-    pl_motion change; // what that adds to the flight, over a horizon
+    int turns;
+    double time[PL_TURNS];      // of its impacts, in order
+    pl_motion change[PL_TURNS]; // what each of them adds to the flight, over a horizon
 } pl_path;
 
 // Free flight over `horizon` [s]: v t + a t^2 / 2 by gravity and forces, no damping.
@@ -27,29 +30,32 @@ pl_motion pl_flight_of(const plumb_world *world, uint32_t row, double horizon);
 
 static inline pl_motion pl_path_at(const pl_path *p, double time)
 {
-    const double after = time > p->impact ? time - p->impact : 0;
-    return (pl_motion){ p->flight.x * time + p->change.x * after,
-                        p->flight.y * time + p->change.y * after,
-                        p->flight.turn * time + p->change.turn * after };
+    pl_motion m = { p->flight.x * time, p->flight.y * time, p->flight.turn * time };
+    for (int i = 0; i < p->turns && p->time[i] < time; ++i) {
+        const double after = time - p->time[i];
+        m.x += p->change[i].x * after;
+        m.y += p->change[i].y * after;
+        m.turn += p->change[i].turn * after;
+    }
+    return m;
 }
 
 // The ways of A and B, and what happens when.
 typedef struct pl_paths {
     pl_path of[2];
-    double breaks[4]; // 0, the impacts of both in order, 1
-    int legs;         // spans between these; breaks[legs] is 1
+    double breaks[2 * PL_TURNS + 2]; // 0, the impacts of both in order, 1
+    int legs;                        // spans between these; breaks[legs] is 1
 } pl_paths;
 
 static inline pl_paths pl_paths_of(const pl_path *a, const pl_path *b)
 {
     pl_paths p = { .of = { *a, *b } };
-    const double first = pl_lesser(a->impact, b->impact);
-    const double second = pl_greater(a->impact, b->impact);
-    if (first > 0 && first < 1) {
-        p.breaks[++p.legs] = first;
-    }
-    if (second > p.breaks[p.legs] && second < 1) {
-        p.breaks[++p.legs] = second;
+    for (int i = 0, k = 0; i < a->turns || k < b->turns;) {
+        const bool of_a = k == b->turns || (i < a->turns && a->time[i] < b->time[k]);
+        const double next = of_a ? a->time[i++] : b->time[k++];
+        if (next > p.breaks[p.legs] && next < 1) {
+            p.breaks[++p.legs] = next;
+        }
     }
     p.breaks[++p.legs] = 1;
     return p;
@@ -89,8 +95,8 @@ typedef struct pl_pair_approach {
     pl_nearest nearest; // of then
 } pl_pair_approach;
 
-// Sweeps the pieces; what stays farther apart than `near` [m] is let go.
-pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near);
+// Sweeps the pieces from the beginning of a leg on; what stays farther apart than `near` [m] is let go.
+pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, int leg, double near);
 // The pose of the body of side 0 (A) or 1 (B) at a time.
 pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time);
 

@@ -85,21 +85,29 @@ static void take_out(pl_pair *pair, pl_manifold *m)
     pl_pair_forget(pair);
 }
 
+// A contact that was sought is one only where the pieces meet or come near one another.
+static bool is_out(const pl_toi *item)
+{
+    const bool acts = item->verdict == PL_TOI_HIT || item->verdict == PL_TOI_NEAR ||
+                      (item->verdict == PL_TOI_KEEPS && item->time <= 1);
+    return item->verdict == PL_TOI_PASSES || (item->sought && !acts);
+}
+
 // Takes out the contacts of pieces that pass; the records of those that meet or pass nearby close up. Returns how many
-// are out, and lists their places: `first` in order, those that were listed later in order behind these.
-static uint32_t sort_out(const pl_looking *l, uint32_t *gaps, uint32_t *first)
+// are out, and the place of the first of these.
+static uint32_t sort_out(const pl_looking *l, uint32_t *first)
 {
     pl_manifold *m = pl_manifolds(l->narrow);
     pl_toi *items = pl_looking_items(l->ahead);
     uint32_t kept = 0, out = 0;
     for (uint32_t i = 0; i < l->ahead->count; ++i) {
         const pl_toi_state verdict = items[i].verdict;
-        if (verdict == PL_TOI_PASSES) {
+        if (is_out(&items[i])) {
             l->narrow->overlaps.point_count -= m[items[i].manifold].count;
             keep(l->ahead, &l->in->pairs[items[i].pair], items[i].pair);
             take_out(&l->in->pairs[items[i].pair], &m[items[i].manifold]);
-            gaps[out++] = items[i].manifold;
-            *first += i < l->listed_first;
+            *first = items[i].manifold < *first ? items[i].manifold : *first;
+            ++out;
         } else if (verdict == PL_TOI_HELD) {
             pl_toi_hold_back(&m[items[i].manifold], &items[i].paths);
         } else if (verdict == PL_TOI_HIT || verdict == PL_TOI_NEAR) {
@@ -177,35 +185,22 @@ static void replace_all(const pl_looking *l)
     }
 }
 
-// Moves manifolds [from, end) up to `to`.
-static void move_up(pl_narrow *narrow, pl_pair *pairs, uint32_t to, uint32_t from, uint32_t end)
+// Closes the gaps that contacts leave which were taken out (count 0), from the first one on. The others move up one by
+// one, and tell their pairs as they do.
+static void close_gaps(pl_narrow *narrow, pl_pair *pairs, uint32_t first)
 {
     pl_manifold *m = pl_manifolds(narrow);
     pl_ends *ends = narrow->ends.data;
-    for (uint32_t i = from; i < end;
-         ++i, ++to) { // in one go: the pair is told by what has just been moved
-        m[to] = m[i];
-        ends[to] = ends[i];
-        pairs[m[to].pair].manifold = to;
-    }
-}
-
-// Closes the gaps that contacts leave which were taken out: two lists of places, each in order.
-static void close_gaps(pl_narrow *narrow, pl_pair *pairs, const uint32_t *gaps, uint32_t first,
-                       uint32_t count)
-{
-    uint32_t i = 0, k = first, kept = 0, from = 0; // from: behind the last gap
-    while (i < first || k < count) {
-        const bool lower = k == count || (i < first && gaps[i] < gaps[k]);
-        const uint32_t gap = lower ? gaps[i++] : gaps[k++];
-        if (kept != from) {
-            move_up(narrow, pairs, kept, from, gap);
+    uint32_t to = first;
+    for (uint32_t i = first; i < narrow->manifold_count; ++i) {
+        if (m[i].count > 0) {
+            m[to] = m[i];
+            ends[to] = ends[i];
+            pairs[m[to].pair].manifold = to;
+            ++to;
         }
-        kept += gap - from;
-        from = gap + 1;
     }
-    move_up(narrow, pairs, kept, from, narrow->manifold_count);
-    narrow->manifold_count -= count;
+    narrow->manifold_count = to;
 }
 
 // What the solver prepares for must still be there. The search ends with the first that is.
@@ -226,11 +221,11 @@ static void recheck_summary(pl_narrow *narrow)
 
 void pl_looking_settle(const pl_looking *l)
 {
-    uint32_t *gaps = l->ahead->list.data, first = 0;
-    const uint32_t count = sort_out(l, gaps, &first);
+    uint32_t first = PL_NONE;
+    const uint32_t count = sort_out(l, &first);
     replace_all(l);
     if (count > 0) {
-        close_gaps(l->narrow, l->in->pairs, gaps, first, count);
+        close_gaps(l->narrow, l->in->pairs, first);
         recheck_summary(l->narrow);
     }
 }
@@ -247,6 +242,42 @@ static bool is_reached_before(const pl_toi *item, const pl_manifold_point *p, do
     return reached;
 }
 
+// A plane that is reached before, of pieces that bounce: it waits for the last impact before they meet, which has them fly
+// straight to it (solver/bounce.c). 0: there is none such, or the solver does not follow impacts.
+static uint8_t wait_of(const plumb_world *world, const pl_toi *item, const pl_manifold *m)
+{
+    double last = 0;
+    for (int i = 1; i < item->paths.legs && item->paths.breaks[i] < item->time; ++i) {
+        last = item->paths.breaks[i];
+    }
+    const bool follows = pl_is_elastic(m->restitution) && !(m->adhesion > 0) &&
+                         world->desc.solver != PLUMB_SOLVER_EXACT && item->verdict == PL_TOI_HIT;
+    return follows ? pl_ahead_moment(world, last) : 0;
+}
+
+// Counts the separations of a manifold back to the start of the step.
+static void count_back(const plumb_world *world, const pl_toi *item, pl_manifold *m)
+{
+    const double nx = (double)m->nx, ny = (double)m->ny;
+    double s[2];
+    bool reached = item->verdict == PL_TOI_NEAR;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        s[k] = counted_back(item, &m->point[k], nx, ny);
+        reached = reached || is_reached_before(item, &m->point[k], nx, ny, s[k]);
+    }
+    m->waits = reached && m->count == 1 ? wait_of(world, item, m) : 0;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        pl_manifold_point *p = &m->point[k];
+        // A plane does not reach what passes it; nor one of the ground's faces what was behind that before.
+        if (m->waits == 0 &&
+            (item->verdict == PL_TOI_NEAR || is_reached_before(item, p, nx, ny, s[k]))) {
+            s[k] = pl_greater(pl_toi_beyond(&item->paths, p, nx, ny),
+                              pl_greater(s[k], PL_TOI_TOLERANCE));
+        }
+        p->separation = (near_real)s[k];
+    }
+}
+
 void pl_ahead_settle(plumb_world *world)
 {
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
@@ -258,17 +289,7 @@ void pl_ahead_settle(plumb_world *world)
             continue; // the ground has taken it out
         }
         pl_manifold *m = &pl_manifolds(&world->narrow)[at];
-        const double nx = (double)m->nx, ny = (double)m->ny;
-        for (uint32_t k = 0; k < m->count; ++k) {
-            pl_manifold_point *p = &m->point[k];
-            double s = counted_back(item, p, nx, ny);
-            // A plane does not reach what passes it; nor one of the ground's faces what was behind that before.
-            if (item->verdict == PL_TOI_NEAR || is_reached_before(item, p, nx, ny, s)) {
-                s = pl_greater(pl_toi_beyond(&item->paths, p, nx, ny),
-                               pl_greater(s, PL_TOI_TOLERANCE));
-            }
-            p->separation = (near_real)s;
-        }
+        count_back(world, item, m);
         m->before = item->before;
         m->met |= PL_MET_ASIDE; // the pieces were apart, wherever the plane of that moment lies
     }

@@ -24,6 +24,9 @@ typedef struct pl_toi {
     uint32_t manifold; // place in the list of manifolds, before internal edges move it
     uint32_t before;   // pl_manifold.before
     double time; // that moment, as a share of the horizon; PL_SWEEP_NEVER: the contact does not act
+    double
+        meets; // KEEPS, HIT: when they touch: the manifold may be that of a moment somewhat before
+    bool sought; // PL_PAIR_SOUGHT
     bool close;  // so near to it that one step more is the last
     pl_paths paths;
     pl_pose poses[2];        // of then; the origin is A's centre of mass at the start of the step

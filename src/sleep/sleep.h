@@ -8,6 +8,8 @@
 
 // Wakes what is due and what is touched (wake.c). False when out of memory: nobody has woken.
 bool pl_sleep_wake(plumb_world *world, plumb_real dt);
+// Whether impacts of this step throw somebody at what sleeps: it is to be run again.
+bool pl_sleep_is_struck(const plumb_world *world);
 // Puts to sleep what has rested long enough (fall.c). False when out of memory: nothing has
 // changed.
 bool pl_sleep_fall(plumb_world *world, plumb_real dt);

@@ -228,6 +228,31 @@ static void mark_due(pl_sleep *s)
     }
 }
 
+// The island of a piece that an impact of this step throws somebody at (narrow/struck.c); PL_NONE: it is awake. Of pair
+// i / 2, its lower piece first.
+static uint32_t struck_island(const plumb_world *world, uint32_t i)
+{
+    const pl_keyed *sought = (const pl_keyed *)world->lookahead.sought.data + i / 2;
+    const uint32_t piece = i % 2 == 0 ? (uint32_t)(sought->key >> 32) : (uint32_t)sought->key;
+    return world->bodies.island[world->pieces.body[piece]];
+}
+
+bool pl_sleep_is_struck(const plumb_world *world)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < 2 * world->lookahead.sought_count && !any; ++i) {
+        any = struck_island(world, i) != PL_NONE;
+    }
+    return any;
+}
+
+static void mark_struck(plumb_world *world)
+{
+    for (uint32_t i = 0; i < 2 * world->lookahead.sought_count; ++i) {
+        mark(&world->sleep, struck_island(world, i));
+    }
+}
+
 //---- what wakes with them ------------------------------------------------------------------------
 
 static void mark_joined(plumb_world *world, uint32_t row)
@@ -493,8 +518,10 @@ bool pl_sleep_wake(plumb_world *world, real dt)
         return false;
     }
     mark_due(s);
-    // A step that is taken anew has heard already, and forces have no part in one that moves nothing.
-    const bool hears = dt > 0 && world->quarantine.attempt == 0 && pl_push_matters(world);
+    mark_struck(world);
+    // A step that is taken anew, or looks again, has heard already, and forces have no part in one that moves nothing.
+    const bool hears = dt > 0 && world->quarantine.attempt == 0 &&
+                       world->lookahead.sought_count == 0 && pl_push_matters(world);
     if (hears) {
         pl_push_mark(world, mark);
     }

@@ -76,7 +76,7 @@ static uint32_t chain_of(near_real restitution)
 }
 
 // What a manifold's impact needs; where its contact reads separations and keeps impulses is the caller's.
-static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
+static pl_impact impact_of(const plumb_world *world, const pl_manifold *m, near_real dt)
 {
     const pl_solver *s = &world->solver;
     uint32_t movable = world->dynamic_count + world->kinematic_count;
@@ -89,6 +89,9 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
                          .friction = m->friction,
                          .restitution = m->restitution,
                          .chain = chain_of(m->restitution),
+                         .waits = m->waits > 0,
+                         .after = (near_real)m->waits / PL_WINDOW_UNIT * dt,
+                         .until = (near_real)m->ends / PL_WINDOW_UNIT * dt,
                          .surface_speed = m->surface_speed };
     if (world->locked_bodies > 0) {
         note_locks(world, m, &impact);
@@ -105,7 +108,7 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
 }
 
 // Records of all elastic contacts.
-void pl_impacts_prepare(plumb_world *world)
+void pl_impacts_prepare(plumb_world *world, near_real dt)
 {
     pl_solver *s = &world->solver;
     const pl_contact_kernels *kernels = pl_solver_kernels(world);
@@ -119,7 +122,7 @@ void pl_impacts_prepare(plumb_world *world)
             continue;
         }
         pl_impact *impact = (pl_impact *)s->impacts.data + s->impact_count++;
-        *impact = impact_of(world, m);
+        *impact = impact_of(world, m, dt);
         for (uint32_t j = 0; j < m->count; ++j) {
             pl_impact_point *p = &impact->point[j];
             p->lane_separation = lane_value(s, kernels, lane, kernels->separation_offset[j]);
@@ -129,7 +132,7 @@ void pl_impacts_prepare(plumb_world *world)
     pl_impact_queue_link(s);
 }
 
-void pl_impacts_prepare_classic(plumb_world *world)
+void pl_impacts_prepare_classic(plumb_world *world, near_real dt)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
@@ -141,7 +144,7 @@ void pl_impacts_prepare_classic(plumb_world *world)
             continue;
         }
         pl_impact *impact = &impacts[s->impact_count++];
-        *impact = impact_of(world, m);
+        *impact = impact_of(world, m, dt);
         for (uint32_t j = 0; j < m->count; ++j) {
             impact->point[j].lane_separation = &contacts[i].point[j].separation;
             impact->point[j].lane_impulse = &contacts[i].point[j].ln;

@@ -139,7 +139,7 @@ static void prepare(classic *c, const plumb_world *world)
             p->rbn = from->bx * m->ny - from->by * m->nx;
             p->rat = from->ax * m->nx + from->ay * m->ny;
             p->rbt = from->bx * m->nx + from->by * m->ny;
-            p->separation = from->separation;
+            p->separation = from->separation + (m->waits > 0 ? PL_APART : 0); // until it is told
             p->mn = inverse_or_zero(mass_n + a->inv_inertia * p->ran * p->ran +
                                     b->inv_inertia * p->rbn * p->rbn);
             p->mt = inverse_or_zero(mass_t + a->inv_inertia * p->rat * p->rat +

@@ -30,9 +30,12 @@ typedef struct pl_impact {
     uint32_t chain;               // impacts of it that are followed in a substep
     uint32_t left;                // impacts that are still followed in the present substep
     bool cut;                     // no more, though there is energy for more
-    double time;                  // [s] of the first one, since the start of the substep
-    uint32_t place;               // in the queue (impact_queue.h); PL_NONE: not in it
-    uint32_t next[2];             // impact of a, and of b; PL_NONE: no more
+    near_real after,
+        until; // [s] since the step began: it acts between impacts of its bodies of about then, until 0: of
+    bool waits, over; // any; it does not yet; it does no more
+    double time;      // [s] of the first one, since the start of the substep
+    uint32_t place;   // in the queue (impact_queue.h); PL_NONE: not in it
+    uint32_t next[2]; // impact of a, and of b; PL_NONE: no more
     pl_impact_point point[2];
 } pl_impact;
 
@@ -250,8 +253,8 @@ near_real pl_soft_substep(const plumb_world *world, real dt);
 void pl_classic_grip(const plumb_world *world, pl_classic_contact *m);
 // Impacts as events (impact.c): collects them; resolves those of one substep of h [s];
 // those that other impacts of the substep made; and tells the sweeps which points stay clear.
-void pl_impacts_prepare(plumb_world *world);
-void pl_impacts_prepare_classic(plumb_world *world);
+void pl_impacts_prepare(plumb_world *world, near_real dt);
+void pl_impacts_prepare_classic(plumb_world *world, near_real dt);
 void pl_impacts_run(plumb_world *world, near_real h);
 void pl_impacts_run_on(plumb_world *world, near_real h);
 void pl_impacts_tell(plumb_world *world, near_real h);

@@ -297,13 +297,13 @@ void pl_joints_row_store(pl_substep *s)
 void pl_impacts_row_prepare(pl_substep *s)
 {
     if (s->solving->elastic) {
-        pl_impacts_prepare(s->world);
+        pl_impacts_prepare(s->world, s->h * (near_real)s->count);
     }
 }
 
 void pl_impacts_row_classic(pl_substep *s)
 {
     if (s->solving->elastic) {
-        pl_impacts_prepare_classic(s->world);
+        pl_impacts_prepare_classic(s->world, s->h * (near_real)s->count);
     }
 }

@@ -15,6 +15,7 @@
 #include "joints/joint.h"
 #include "character/character.h"
 #include "internal_edges/internal_edges.h"
+#include "broad/pairs.h"
 #include "sleep/sleep.h"
 #include "continuous/continuous.h"
 #include "event/event.h"
@@ -51,12 +52,42 @@ static bool wake(plumb_world *world, plumb_real dt)
     return true;
 }
 
-static bool narrow(plumb_world *world, plumb_real dt)
+static bool make_manifolds(plumb_world *world, plumb_real dt)
 {
-    if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow) ||
-        !pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow)) {
+    return pl_narrow_reserve(world, &world->broad.pairs, &world->narrow) &&
+           pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
+}
+
+// Some pairs that impacts of this step make meet were in no list, or asleep: they are now, and all manifolds are made
+// anew.
+static bool look_again(plumb_world *world, plumb_real dt)
+{
+    const pl_lookahead *ahead = &world->lookahead;
+    const char *unused;
+    pl_ahead_undo(world);
+    if (pl_sleep_is_struck(world) &&
+        !(wake(world, dt) && pl_broad_update(world, dt, &pl_end_listener))) {
         return false;
     }
+    return pl_pairs_seek(world, ahead->sought.data, ahead->sought_count) &&
+           (!pl_want_internal_edges(world, &unused) || pl_internal_edges_update(world)) &&
+           make_manifolds(world, dt);
+}
+
+// Times that a chain of impacts may lead to somebody new in one step.
+#define MOST_LOOKS 12
+
+static bool narrow(plumb_world *world, plumb_real dt)
+{
+    if (!make_manifolds(world, dt)) {
+        return false;
+    }
+    for (int i = 0; world->lookahead.again && i < MOST_LOOKS; ++i) {
+        if (!look_again(world, dt)) {
+            return false;
+        }
+    }
+    pl_pairs_seek_no_more(world, world->lookahead.sought.data, world->lookahead.sought_count);
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world, dt);
     }

@@ -10,6 +10,7 @@
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
 #include "air/air.h"
+#include "broad/pairs.h"
 #include "liquid/liquid.h"
 #include "narrow/ahead.h"
 #include "sleep/sleep.h"
@@ -34,7 +35,8 @@ static void forget_contacts(plumb_world *world)
     world->laws.step.flies = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
-    world->lookahead.kept_count = 0;
+    world->lookahead.kept_count = world->lookahead.sought_count = 0;
+    world->lookahead.again = false;
     world->internal_edges.noted = world->internal_edges.opened = false;
     world->continuous.count = world->continuous.stopped_count = 0;
     world->continuous.noting = false;
@@ -310,6 +312,7 @@ static void undo_step(plumb_world *world)
     pl_sleep_undo_close(world);
     pl_tracks_undo(world);
     pl_ahead_undo(world);
+    pl_pairs_undo_seek(world, world->lookahead.sought.data, world->lookahead.sought_count);
     pl_internal_edges_undo(world);
     world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
 }

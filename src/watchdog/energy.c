@@ -196,7 +196,8 @@ static void drive_by_contacts(const plumb_world *world)
                              (m->restitution > 1 ? (double)world->desc.restitution_cap : 0);
         const uint32_t row = is_dynamic(world, m->body_a) ? m->body_a : m->body_b;
         const double deep =
-            -pl_less((double)m->point[0].separation, (double)m->point[1].separation);
+            m->waits > 0 ? 0
+                         : -pl_less((double)m->point[0].separation, (double)m->point[1].separation);
         drive(world, row, speed);
         if (is_dynamic(world, row)) {
             pl_watched_island *island = island_of(world, row);

@@ -38,7 +38,10 @@ typedef struct pl_manifold {
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
     uint32_t pair;              // index in the pair list
-    uint32_t count;             // points, 1 or 2
+    uint16_t count;             // points, 1 or 2
+    // Its plane acts from one impact of its bodies to another, by when they come (PL_WINDOW_UNIT); 0: from the start, to
+    // the end of the step.
+    uint8_t waits, ends;
     uint32_t feature[2];
     uint16_t disabled; // by a system; only while the contact systems run
     uint16_t met;      // PL_MET_...: what events want to know
@@ -49,6 +52,9 @@ typedef struct pl_manifold {
         uint32_t ahead; // of those whose pair is PL_PAIR_AHEAD: the record
     };
 } pl_manifold;
+
+// The whole step in pl_manifold.waits and ends.
+#define PL_WINDOW_UNIT 255
 
 #define PL_MET_ACTED 1u // it pushed in some substep, though not in the last one
 #define PL_MET_MEASURED                                                                            \
@@ -79,7 +85,8 @@ typedef struct pl_manifold {
     0x40000000u // it is there already, and may close by PL_TURNED; others lie ahead
 #define PL_CANDIDATE_ACTS    0x20000000u // it may reach its plane
 #define PL_CANDIDATE_BOUNCES 0x10000000u // its restitution is above 0
-#define PL_CANDIDATE_PLACE   0x0fffffffu
+#define PL_CANDIDATE_SOUGHT  0x08000000u // PL_PAIR_SOUGHT
+#define PL_CANDIDATE_PLACE   0x07ffffffu
 
 // [m] what touched goes on to touch while it is nearer than this.
 #define PL_TOUCH_HOLD PL_AHEAD
@@ -194,6 +201,13 @@ typedef struct pl_lookahead {
     pl_buffer kept;       // what pairs had whose manifolds became others (settle.c)
     uint32_t kept_count;
     pl_buffer map, paths; // of bodies that have such contacts: where, pl_way
+    pl_buffer listed;     // uint32_t a candidate: 1 + its item; 0: none
+    pl_buffer meetings; // pl_keyed: items that meet, by time
+    // Pairs whose pieces an impact of this step makes meet, and that had no manifold (struck.c).
+    pl_buffer sought; // pl_keyed by pl_pair_key
+    uint32_t sought_count;
+    pl_buffer strays; // of one look: bodies that impacts take from their flight
+    bool again; // some are new: the pass is to be run once more
 } pl_lookahead;
 
 typedef struct pl_narrow {

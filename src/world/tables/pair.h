@@ -43,6 +43,8 @@ typedef struct pl_pair {
 #define PL_PAIR_STIFF_SHIFT 23u
 #define PL_PAIR_STIFF_MASK  (15u << PL_PAIR_STIFF_SHIFT)
 #define PL_STIFF_LEVELS     15u
+#define PL_PAIR_SOUGHT                                                                             \
+    134217728u // an impact of this step makes its pieces meet, however far apart they are; only within the narrow phase
 #define PL_PAIR_LOADS                                                                              \
     (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1 | PL_PAIR_PRESSED | PL_PAIR_LARGE | PL_PAIR_EXACT |       \
      PL_PAIR_STIFF_MASK)
