@@ -65,6 +65,7 @@ static bool look_again(plumb_world *world, plumb_real dt)
     const pl_lookahead *ahead = &world->lookahead;
     const char *unused;
     pl_ahead_undo(world);
+    pl_internal_edges_undo(world);
     if (pl_sleep_is_struck(world) &&
         !(wake(world, dt) && pl_broad_update(world, dt, &pl_end_listener))) {
         return false;

@@ -124,7 +124,7 @@ static near_real surface_speed_of(const plumb_world *w, const pl_contact_kernels
 static contact contact_of(plumb_world *w, const pl_manifold *m, size_t lane)
 {
     const pl_contact_kernels *kernels = pl_solver_kernels(w);
-    contact c = { .impact = impact_of(w, m) };
+    contact c = { .impact = impact_of(w, m, 1) };
     c.impact.surface_speed = surface_speed_of(w, kernels, lane);
     c.before[0] = rows_of(&w->solver, c.impact.a);
     c.before[1] = rows_of(&w->solver, c.impact.b);
