@@ -54,5 +54,5 @@ end }
 exact { "energy", at = 0.5, value = function() return 1 end, measure = function()
     return energy() / (find("ball1"):mass() * v * v / 2)
 end }
-expect { "the velocities", exact = "velocities", tolerance = 0.012 }
+expect { "the velocities", exact = "velocities", tolerance = 0.005 }
 expect { "the energy", exact = "energy", tolerance = 5.3e-08 }
