@@ -230,8 +230,7 @@ static inline void emit_lane(pl_pair *pair, pl_manifold *m, near_real limit,
 {
     const bool both = m->point[0].separation < limit && m->point[1].separation < limit;
     const bool same = pair->feature[0] == feature[0] && pair->feature[1] == feature[1];
-    m->count =
-        (uint16_t)(both && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature));
+    m->count = (uint16_t)(both && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature));
     m->waits = m->ends = 0;
     m->disabled = 0;
     m->before = pair->manifold;
