@@ -3,7 +3,8 @@
 // Impacts are those of contacts that are there already and close (PL_CANDIDATE_STRIKES), as the step begins, and of contacts
 // that lie ahead and were found to meet. Of the latter one counts only if the ways on which it was found are still those
 // of its bodies: in order of time, each turns both, and what was to come behind it on their old ways is looked at again.
-// So after some rounds all is in order from impact to impact (ahead.c). //
+// So after some rounds all is in order from impact to impact (ahead.c).
+//
 // Reads: poses, velocities, forces, candidates, verdicts. Writes: paths of claimed bodies. Cost: O(candidates); those that meet are sorted.
 #include "core/sort.h"
 #include "narrow/looking.h"

@@ -51,7 +51,7 @@
     X("internal edges",    PAIRS,       IF(pl_want_internal_edges),  ONCE(pl_run_internal_edges),                            REFRESHES,      \
       "pieces, grids, pairs", "internal edges", ONE)                                                                                         \
     X("narrow phase",      CONTACTS,    IF(pl_want_collision),       ONCE(pl_run_narrow),                                    REFRESHES,      \
-      "pairs, poses, pieces, materials, grids, islands", "manifolds, pairs, internal edges, grids, rows, islands", HAS(pl_narrow_variants))                                        \
+      "pairs, poses, pieces, materials, grids, islands", "manifolds, pairs, internal edges, grids, rows, islands, events", HAS(pl_narrow_variants))                                        \
     X("surfaces",          CONTACTS,    IF(pl_want_surfaces),        ONCE(pl_run_surfaces),                                  REFRESHES,      \
       "pairs, materials", "manifolds", ONE)                                                                                                  \
     X("feet",              CONTACTS,    IF(pl_want_feet),            ONCE(pl_run_feet),                                      ONCE,           \

@@ -31,8 +31,8 @@ typedef struct pl_impact {
     uint32_t left;                // impacts that are still followed in the present substep
     bool cut;                     // no more, though there is energy for more
     near_real after,
-        until; // [s] since the step began: it acts between impacts of its bodies of about then, until 0: of
-    bool waits, over; // any; it does not yet; it does no more
+        until; // [s] since the step began: from and to impacts of its bodies of about then it acts; 0: always
+    bool waits, over; // it does not act yet; it does no more
     double time;      // [s] of the first one, since the start of the substep
     uint32_t place;   // in the queue (impact_queue.h); PL_NONE: not in it
     uint32_t next[2]; // impact of a, and of b; PL_NONE: no more

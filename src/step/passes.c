@@ -62,8 +62,9 @@ static bool make_manifolds(plumb_world *world, plumb_real dt)
 // anew.
 static bool look_again(plumb_world *world, plumb_real dt)
 {
-    const pl_lookahead *ahead = &world->lookahead;
+    pl_lookahead *ahead = &world->lookahead;
     const char *unused;
+    ahead->again = false;
     pl_ahead_undo(world);
     pl_internal_edges_undo(world);
     if (pl_sleep_is_struck(world) &&

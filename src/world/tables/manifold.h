@@ -202,12 +202,12 @@ typedef struct pl_lookahead {
     uint32_t kept_count;
     pl_buffer map, paths; // of bodies that have such contacts: where, pl_way
     pl_buffer listed;     // uint32_t a candidate: 1 + its item; 0: none
-    pl_buffer meetings; // pl_keyed: items that meet, by time
+    pl_buffer meetings;   // pl_keyed: items that meet, by time
     // Pairs whose pieces an impact of this step makes meet, and that had no manifold (struck.c).
     pl_buffer sought; // pl_keyed by pl_pair_key
     uint32_t sought_count;
     pl_buffer strays; // of one look: bodies that impacts take from their flight
-    bool again; // some are new: the pass is to be run once more
+    bool again;       // some are new: the pass is to be run once more
 } pl_lookahead;
 
 typedef struct pl_narrow {
