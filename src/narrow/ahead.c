@@ -249,6 +249,21 @@ static bool claim_bodies(pl_looking *l)
     return any;
 }
 
+// Bodies of contacts whose impacts the solver follows one by one.
+static void note_lively(pl_looking *l)
+{
+    const uint32_t *candidates = l->narrow->candidates.data;
+    for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
+        const pl_manifold *m = &pl_manifolds(l->narrow)[candidates[i] & PL_CANDIDATE_PLACE];
+        for (int side = 0; side < 2 && pl_is_elastic(m->restitution); ++side) {
+            pl_way *way = pl_looking_known(l, side == 0 ? m->body_a : m->body_b);
+            if (way != NULL) {
+                way->lively = true;
+            }
+        }
+    }
+}
+
 // Whether a point reaches the plane at a time, on the ways that impacts turn.
 static bool reaches_at(const pl_manifold *m, const pl_path *a, const pl_path *b, double time)
 {
@@ -382,6 +397,9 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
     if (!claim_bodies(&l)) {
         return true;
     }
+    if (narrow->any_elastic) {
+        note_lively(&l);
+    }
     pl_looking_note_strikes(&l);
     if (!list_acting(&l) || !reserve_lists(world, ahead)) {
         return false;
@@ -390,7 +408,7 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
     bool any = true;
     for (int i = 0; any && i < impacts; ++i) {
         look_at_open(&l);
-        if (!pl_looking_note_meetings(&l) || !list_again(&l, &any) ||
+        if (!pl_looking_note_meetings(&l, i > 0) || !list_again(&l, &any) ||
             !reserve_lists(world, ahead)) {
             return false;
         }

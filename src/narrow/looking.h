@@ -10,8 +10,10 @@ typedef struct pl_way {
     bool claimed; // impacts of it are looked for: of others nobody will ask
     bool struck;  // one turns it as the step begins
     bool bounces; // one that throws it back does
+    bool lively;  // it has a contact that does: its way is followed from impact to impact
     bool joined;  // joints hold it: where it goes after an impact is theirs to say
     bool changed; // it is another since its contacts were looked at
+    bool doubted; // what it does is not known to the end
     uint32_t row;
     uint64_t before; // digest of the way of then (turns.c)
 } pl_way;
@@ -76,6 +78,24 @@ static inline bool pl_looking_bounces(const pl_looking *l, uint32_t row)
     return way != NULL && way->bounces && way->path.turns > 0;
 }
 
+// Whether what a body does is not known to the end (expire.c).
+static inline bool pl_looking_is_doubted(const pl_looking *l, uint32_t row)
+{
+    const pl_way *way = pl_looking_known(l, row);
+    return way != NULL && way->doubted;
+}
+
+// Returns whether that is new.
+static inline bool pl_looking_doubt(pl_looking *l, uint32_t row)
+{
+    pl_way *way = pl_looking_known(l, row);
+    const bool is_new = way != NULL && !way->doubted;
+    if (is_new) {
+        way->doubted = true;
+    }
+    return is_new;
+}
+
 // Bodies are asked for again and again: each flight is computed once.
 pl_way *pl_looking_new_way(pl_looking *l, uint32_t row);
 
@@ -101,9 +121,10 @@ static inline const pl_path *pl_looking_path(pl_looking *l, uint32_t row)
 
 pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m);
 // Impacts of claimed bodies: by the contacts that are there already; then, made anew, by those that were found to meet
-// on the ways that lead there. False when out of memory.
+// on the ways that lead there; `again`: of bodies that are lively alone, for what others do must not hang on whether
+// there are such. False when out of memory.
 void pl_looking_note_strikes(pl_looking *l);
-bool pl_looking_note_meetings(pl_looking *l);
+bool pl_looking_note_meetings(pl_looking *l, bool again);
 // Whether two ways are the same until a time.
 uint64_t pl_looking_digest(const pl_path *p); // tells ways with other turns apart; 0 of one without
 bool pl_looking_is_same_way(const pl_path *p, const pl_path *q, double time);

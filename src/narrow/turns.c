@@ -202,7 +202,13 @@ static bool list_meetings(pl_looking *l, uint32_t *count)
     return true;
 }
 
-bool pl_looking_note_meetings(pl_looking *l)
+static bool is_lively(const pl_looking *l, uint32_t row)
+{
+    const pl_way *way = pl_looking_known(l, row);
+    return way != NULL && way->lively;
+}
+
+bool pl_looking_note_meetings(pl_looking *l, bool again)
 {
     uint32_t count;
     if (!list_meetings(l, &count)) {
@@ -210,14 +216,15 @@ bool pl_looking_note_meetings(pl_looking *l)
     }
     for (uint32_t i = 0; i < l->way_count; ++i) {
         pl_way *way = &l->all[i];
-        if (way->claimed) {
+        if (way->claimed && (way->lively || !again)) {
             way->path.turns = way->struck ? 1 : 0;
         }
     }
     for (uint32_t i = 0; i < count; ++i) {
         const pl_keyed *at = (const pl_keyed *)l->ahead->meetings.data + i;
         const pl_toi *item = &pl_looking_items(l->ahead)[at->value];
-        if (is_right(l, item)) {
+        const pl_manifold *m = pl_looking_manifold(l, item);
+        if ((!again || is_lively(l, m->body_a) || is_lively(l, m->body_b)) && is_right(l, item)) {
             note_hit(l, item);
         }
     }

@@ -151,7 +151,7 @@ static void note_window(const plumb_world *world, pl_impact *m, double h)
     const double last = a > b ? a : b, now = (double)world->solver.since + last + KNOWN * h;
     if (last >= 0) {
         m->waits = m->waits && now < (double)m->after;
-        m->over = m->over || (m->until > 0 && now >= (double)m->until);
+        m->over = m->over || (m->until > 0 && m->met && now >= (double)m->until);
     }
 }
 

@@ -91,7 +91,8 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m, near_
                          .chain = chain_of(m->restitution),
                          .waits = m->waits > 0,
                          .after = (near_real)m->waits / PL_WINDOW_UNIT * dt,
-                         .until = (near_real)m->ends / PL_WINDOW_UNIT * dt,
+                         .until = (near_real)(m->ends % PL_ENDS_STRUCK) / PL_WINDOW_UNIT * dt,
+                         .met = m->ends < PL_ENDS_STRUCK,
                          .surface_speed = m->surface_speed };
     if (world->locked_bodies > 0) {
         note_locks(world, m, &impact);
@@ -180,9 +181,10 @@ static void count_off(pl_solver *s, pl_impact *m)
 }
 
 // An impact has been: foresees anew what its bodies meet.
-static void follow(plumb_world *world, const pl_impact *m, double h)
+static void follow(plumb_world *world, pl_impact *m, double h)
 {
     pl_pairs(&world->broad.pairs)[m->pair].flags |= PL_PAIR_HIT;
+    m->met = true;
     ++world->solver.bounce_count;
     queue_neighbours(world, m->a, h);
     queue_neighbours(world, m->b, h);

@@ -33,6 +33,7 @@ typedef struct pl_impact {
     near_real after,
         until; // [s] since the step began: from and to impacts of its bodies of about then it acts; 0: always
     bool waits, over; // it does not act yet; it does no more
+    bool met;         // it has struck, so it may be over
     double time;      // [s] of the first one, since the start of the substep
     uint32_t place;   // in the queue (impact_queue.h); PL_NONE: not in it
     uint32_t next[2]; // impact of a, and of b; PL_NONE: no more

@@ -53,8 +53,9 @@ typedef struct pl_manifold {
     };
 } pl_manifold;
 
-// The whole step in pl_manifold.waits and ends.
-#define PL_WINDOW_UNIT 255
+// The whole step in pl_manifold.waits and ends; and of ends: but not before the contact itself has struck.
+#define PL_WINDOW_UNIT  127
+#define PL_ENDS_STRUCK  128
 
 #define PL_MET_ACTED 1u // it pushed in some substep, though not in the last one
 #define PL_MET_MEASURED                                                                            \
