@@ -230,7 +230,7 @@ static double growth_of(const gas *g, const gas *nudged, double speed)
     return grows / speed;
 }
 
-// Without what this tests 219 of 572 were off by more than a hundredth of the speed. One is left: a ball that comes back
+// Without what this tests 219 of 572 were off by more than a hundredth of the speed. Two are left: a ball that comes back
 // from a third one grazes the second once more, within the step, and has its normal of the first time.
 static void few_balls_fly_as_they_should(void **state)
 {
