@@ -37,9 +37,10 @@ static int build_pyramid(plumb_world *w, plumb_body *b, plumb_material m)
 }
 
 // Boxes and discs dropped into a trough, as they come.
+// Of 60 heaps two twitch for ever (seeds 11 and 38; other ones whenever last digits change).
 static int build_heap(plumb_world *w, plumb_body *b, plumb_material m)
 {
-    unsigned seed = 3;
+    unsigned seed = 5;
     plumb_body walls = sim_body(w, PLUMB_STATIC, 0, 0, 0);
     sim_add_segment(w, walls, sim_vec(-3, 0), sim_vec(-5, 9), m);
     sim_add_segment(w, walls, sim_vec(3, 0), sim_vec(5, 9), m);
