@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef struct pl_keyed {
     uint64_t key;
@@ -26,6 +27,15 @@ uint32_t pl_counts_to_places(uint32_t *counts, uint32_t kinds, uint32_t first);
 static inline uint64_t pl_key(uint32_t high, uint32_t low)
 {
     return (uint64_t)high << 32 | low;
+}
+
+// A number as a key: in the order that numbers have, both zeros as one.
+static inline uint64_t pl_key_of_number(double v)
+{
+    uint64_t bits;
+    v += 0.0;
+    memcpy(&bits, &v, sizeof bits);
+    return bits >> 63 != 0 ? ~bits : bits | UINT64_C(1) << 63;
 }
 
 // Of a pair, whichever comes first: the lower one leads.

@@ -46,15 +46,6 @@ typedef struct sweep {
 
 //---- who is in the volume ------------------------------------------------------------------------
 
-// The same order as numbers have.
-static uint64_t key_of(double v)
-{
-    uint64_t bits;
-    v += 0.0; // one zero
-    memcpy(&bits, &v, sizeof bits);
-    return bits >> 63 != 0 ? ~bits : bits | UINT64_C(1) << 63;
-}
-
 static bool is_in(const sweep *s, uint32_t piece, const pl_box *volume)
 {
     const plumb_world *world = s->world;
@@ -172,7 +163,7 @@ static bool cast_shades(sweep *s)
     const blocker *b = e->blockers.data;
     pl_keyed *order = e->shades.data; // its own use comes later
     for (uint32_t i = 0; i < n; ++i) {
-        order[i] = (pl_keyed){ key_of(b[i].low), i, i };
+        order[i] = (pl_keyed){ pl_key_of_number(b[i].low), i, i };
     }
     pl_sort_keyed(order, n);
     for (uint32_t i = 0; i < n; ++i) {
@@ -201,7 +192,7 @@ static uint32_t next_free(uint32_t *next, uint32_t at)
 static uint32_t place_of(const pl_keyed *ends, uint32_t count, double at)
 {
     bool found;
-    return pl_find_key(ends, count, sizeof *ends, key_of(at), &found);
+    return pl_find_key(ends, count, sizeof *ends, pl_key_of_number(at), &found);
 }
 
 // Room for the ends, places and shares of n shades.
@@ -224,8 +215,8 @@ static bool overlay(plumb_world *world, const cast *casts, uint32_t n, pl_shadow
     uint32_t *next = (uint32_t *)(void *)(place + most + 1);
     uint32_t count = 0;
     for (uint32_t i = 0; i < n; ++i) {
-        ends[2 * i] = (pl_keyed){ key_of(casts[i].low), 2 * i, 2 * i };
-        ends[2 * i + 1] = (pl_keyed){ key_of(casts[i].high), 2 * i + 1, 2 * i + 1 };
+        ends[2 * i] = (pl_keyed){ pl_key_of_number(casts[i].low), 2 * i, 2 * i };
+        ends[2 * i + 1] = (pl_keyed){ pl_key_of_number(casts[i].high), 2 * i + 1, 2 * i + 1 };
     }
     pl_sort_keyed(ends, most);
     for (uint32_t i = 0; i < most; ++i) {

@@ -14,9 +14,10 @@
 //    motion again, so that the impact falls into the right substep, with the normal and arms of its moment.
 //
 // The first impact of a body turns it aside: by those that are there as the step begins its way is known, and what it
-// would meet after one that lies ahead is looked at once more, along the way that it takes from there; and so on, one
-// behind the other (IMPACTS). Whom such a way leads to without there being a contact is sought then (struck.c). Friction, and
-// what is third on its way, are left to the solver and the sweeps of continuous/.
+// would meet after one that lies ahead is looked at once more, along the way that it takes from there; of what bounces so on,
+// one behind the other (IMPACTS, PL_TURNS). Planes that a later impact takes their pieces from end there (expire.c); whom
+// such a way leads to without there being a contact is sought (struck.c). The rest is left to the solver and the sweeps of
+// continuous/.
 //
 // The ground's internal edges judge the manifold of that moment before it is counted back (internal_edges/correct.c).
 //

@@ -126,7 +126,6 @@ pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m);
 void pl_looking_note_strikes(pl_looking *l);
 bool pl_looking_note_meetings(pl_looking *l, bool again);
 // Whether two ways are the same until a time.
-uint64_t pl_looking_digest(const pl_path *p); // tells ways with other turns apart; 0 of one without
 bool pl_looking_is_same_way(const pl_path *p, const pl_path *q, double time);
 
 //---- expire.c: planes that cease to act --------------------------------------------------------------

@@ -260,17 +260,17 @@ static void count_back(const plumb_world *world, const pl_toi *item, pl_manifold
 {
     const double nx = (double)m->nx, ny = (double)m->ny;
     double s[2];
-    bool reached = item->verdict == PL_TOI_NEAR;
+    bool reached[2]; // before, or never: a plane does not reach what passes it
     for (uint32_t k = 0; k < m->count; ++k) {
-        s[k] = counted_back(item, &m->point[k], nx, ny);
-        reached = reached || is_reached_before(item, &m->point[k], nx, ny, s[k]);
+        const pl_manifold_point *p = &m->point[k];
+        s[k] = counted_back(item, p, nx, ny);
+        reached[k] = item->verdict == PL_TOI_NEAR || is_reached_before(item, p, nx, ny, s[k]);
     }
-    m->waits = reached && m->count == 1 ? wait_of(world, item, m) : 0;
+    m->waits = m->count == 1 && reached[0] ? wait_of(world, item, m) : 0;
     for (uint32_t k = 0; k < m->count; ++k) {
         pl_manifold_point *p = &m->point[k];
-        // A plane does not reach what passes it; nor one of the ground's faces what was behind that before.
-        if (m->waits == 0 &&
-            (item->verdict == PL_TOI_NEAR || is_reached_before(item, p, nx, ny, s[k]))) {
+        // Nor does one of the ground's faces reach what was behind that before.
+        if (m->waits == 0 && reached[k]) {
             s[k] = pl_greater(pl_toi_beyond(&item->paths, p, nx, ny),
                               pl_greater(s[k], PL_TOI_TOLERANCE));
         }

@@ -10,15 +10,13 @@
 // of where it goes, and to ask for all of them cost a stirred bowl eight times its step.
 //
 // Reads: ways, grids, pairs. Writes: the list of pairs that are sought. Cost: O(ways); for each body that an impact takes farther
-// than half of PL_SPECULATIVE from where it would have flown a query of the grids, once for each way, and a sweep for each
-// piece there.
+// than half of PL_SPECULATIVE from where it would have flown a query of the grids, and a sweep for each piece there.
 #include "broad/images.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "narrow/looking.h"
 
 #include <math.h>
-#include <string.h>
 
 // [m] a body that strays less from its flight meets nobody whom its contacts do not know of.
 #define STRAY ((double)PL_SPECULATIVE / 2)
@@ -40,7 +38,6 @@ static double stray_of(const pl_looking *l, const pl_way *way)
 typedef struct stray {
     pl_box box;
     uint32_t row;
-    uint64_t digest; // of its way
 } stray;
 
 static stray *strays(const pl_lookahead *ahead)
@@ -66,9 +63,7 @@ static pl_box box_at(const pl_looking *l, const pl_way *way, double time)
 
 static stray stray_at(const pl_looking *l, const pl_way *way)
 {
-    stray s = { .box = box_at(l, way, 1),
-                .row = way->row,
-                .digest = pl_looking_digest(&way->path) };
+    stray s = { .box = box_at(l, way, 1), .row = way->row };
     for (int i = 0; i < way->path.turns; ++i) {
         s.box = hull(s.box, box_at(l, way, way->path.time[i]));
     }
@@ -184,14 +179,7 @@ static void sort_sought(pl_lookahead *ahead)
     ahead->sought_count = kept;
 }
 
-// From the left to the right. Bits of floats in order, those of negative ones turned about.
-static uint64_t key_of(double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return (bits >> 63) != 0 ? ~bits : bits | 1ull << 63;
-}
-
+// From the left to the right.
 static bool list_strays(pl_looking *l, uint32_t *count)
 {
     pl_lookahead *ahead = l->ahead;
@@ -211,7 +199,7 @@ static bool list_strays(pl_looking *l, uint32_t *count)
     for (uint32_t i = 0; i < ways; ++i) {
         if (stray_of(l, &l->all[i]) > STRAY) {
             found[n] = stray_at(l, &l->all[i]);
-            order[n] = (pl_keyed){ key_of((double)found[n].box.min_x), l->all[i].row, n };
+            order[n] = (pl_keyed){ pl_key_of_number((double)found[n].box.min_x), l->all[i].row, n };
             ++n;
         }
     }
@@ -224,7 +212,6 @@ static bool list_strays(pl_looking *l, uint32_t *count)
 
 bool pl_looking_seek(pl_looking *l)
 {
-    l->ahead->again = false;
     if (!l->narrow->any_elastic) {
         return true;
     }

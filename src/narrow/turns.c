@@ -146,8 +146,8 @@ bool pl_looking_is_same_way(const pl_path *p, const pl_path *q, double time)
     return true;
 }
 
-// Knuth's multiplicative step, over the bits of all turns.
-uint64_t pl_looking_digest(const pl_path *p)
+// Tells ways with other turns apart; 0 of one without. Knuth's multiplicative step, over the bits of all turns.
+static uint64_t digest_of(const pl_path *p)
 {
     uint64_t sum = 0;
     for (int i = 0; i < p->turns; ++i) {
@@ -180,7 +180,7 @@ static void note_hit(pl_looking *l, const pl_toi *item)
     }
 }
 
-// The items that meet, by time: bits of doubles that are not negative are in their order. False when out of memory.
+// The items that meet, by time. False when out of memory.
 static bool list_meetings(pl_looking *l, uint32_t *count)
 {
     pl_lookahead *ahead = l->ahead;
@@ -193,9 +193,7 @@ static bool list_meetings(pl_looking *l, uint32_t *count)
         const pl_toi *item = &pl_looking_items(ahead)[i];
         if (item->verdict == PL_TOI_HIT || (item->verdict == PL_TOI_KEEPS && item->meets <= 1)) {
             const double time = pl_greater(item->meets, 0);
-            pl_keyed *at = &meetings[(*count)++];
-            *at = (pl_keyed){ .order = item->pair, .value = i };
-            memcpy(&at->key, &time, sizeof time);
+            meetings[(*count)++] = (pl_keyed){ pl_key_of_number(time), item->pair, i };
         }
     }
     pl_sort_keyed(meetings, *count);
@@ -230,7 +228,7 @@ bool pl_looking_note_meetings(pl_looking *l, bool again)
     }
     for (uint32_t i = 0; i < l->way_count; ++i) {
         pl_way *way = &l->all[i];
-        const uint64_t digest = way->claimed ? pl_looking_digest(&way->path) : way->before;
+        const uint64_t digest = way->claimed ? digest_of(&way->path) : way->before;
         way->changed = digest != way->before;
         way->before = digest;
     }

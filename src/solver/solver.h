@@ -30,8 +30,8 @@ typedef struct pl_impact {
     uint32_t chain;               // impacts of it that are followed in a substep
     uint32_t left;                // impacts that are still followed in the present substep
     bool cut;                     // no more, though there is energy for more
-    near_real after,
-        until; // [s] since the step began: from and to impacts of its bodies of about then it acts; 0: always
+    // [s] since the step began: it acts from impacts of its bodies of about then to others; 0: from the start, to the end.
+    near_real after, until;
     bool waits, over; // it does not act yet; it does no more
     bool met;         // it has struck, so it may be over
     double time;      // [s] of the first one, since the start of the substep
