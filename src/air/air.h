@@ -39,6 +39,13 @@ void pl_air_store(const pl_air_scratch *scratch, plumb_air_cell *cells);
 // Velocities between the columns and the grid of pressures.
 void pl_air_to_grid(pl_air_scratch *scratch);
 void pl_air_from_grid(pl_air_scratch *scratch);
+// Faces that are open by next to nothing are shut: air that a body drives through one would be as fast as it is narrow, and go through
+// many of them in a step, which a projection does not see.
+void pl_air_shut_slits(pl_air_scratch *scratch);
+// Before solids move: `now`, `now_v` get the speed of what closes faces. Behind that, when faces are closed anew: what has been uncovered
+// flows at that speed.
+void pl_air_keep_speeds(pl_air_scratch *scratch);
+void pl_air_uncover(pl_air_scratch *scratch);
 
 //---- sides.c -------------------------------------------------------------------------------------
 

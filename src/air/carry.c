@@ -323,20 +323,17 @@ static near_real positive(near_real x)
     return x > 0 ? x : 0;
 }
 
-// The largest share of a cell that leaves it in a second, times h.
-static double fastest(const pl_air_scratch *s)
+// How much goes into a cell, and out of it.
+typedef struct exchange {
+    near_real in, out;
+} exchange;
+
+static exchange exchange_of(const near_real *x, const near_real *y, size_t k, size_t up)
 {
-    near_real most = 0;
-    for (int32_t j = 0; j < s->columns_y; ++j) {
-        for (int32_t i = 0; i < s->columns_x; ++i) {
-            const size_t k = pl_air_at(s, i, j), above = k + s->stride;
-            const near_real out = positive(s->flux_u[k + 1]) + positive(-s->flux_u[k]) +
-                                  positive(s->flux_v[above]) + positive(-s->flux_v[k]);
-            const near_real share = s->room[k] > 0 ? out / s->room[k] : 0;
-            most = share > most ? share : most;
-        }
-    }
-    return (double)most;
+    return (exchange){
+        positive(x[k]) + positive(-x[k + 1]) + positive(y[k]) + positive(-y[k + up]),
+        positive(x[k + 1]) + positive(-x[k]) + positive(y[k + up]) + positive(-y[k]),
+    };
 }
 
 // In how many parts, and how far one goes [s/m]: not as far as all, beyond what so many parts can bear.
@@ -345,11 +342,12 @@ typedef struct stride {
     near_real step;
 } stride;
 
-static stride stride_of(const pl_air_scratch *s, double dt, double h, double most)
+// `fastest`: the largest share of a cell that is exchanged in a second, times h.
+static stride stride_of(double fastest, double dt, double h, double most)
 {
-    const double speed = fastest(s), parts = speed * dt / h / most;
+    const double parts = fastest * dt / h / most;
     if (parts > MOST_PARTS) {
-        return (stride){ MOST_PARTS, (near_real)(most / speed) };
+        return (stride){ MOST_PARTS, (near_real)(most / fastest) };
     }
     const int count = (int)ceil(parts);
     return (stride){ count, (near_real)(count > 0 ? dt / h / count : 0) };
@@ -370,24 +368,55 @@ static void find_across(pl_air_scratch *s, area n, bool upright)
     }
 }
 
+// What comes in counts as well: where solids make room nothing goes out, and a velocity that is replaced more than once in a part
+// would swing ever wider.
+static stride stride_of_velocities(const pl_air_scratch *s, area n, double dt, double h)
+{
+    near_real most = 0;
+    for (int32_t j = 0; j < n.lines; ++j) {
+        for (int32_t i = 0; i < n.columns; ++i) {
+            const size_t k = pl_air_at(s, i, j);
+            const exchange e = exchange_of(s->across_x, s->across_y, k, s->stride);
+            most = most_of(most, s->share[k] * most_of(e.in, e.out));
+        }
+    }
+    return stride_of((double)most, dt, h, MOST_MOVES);
+}
+
+// Velocities of upright faces, or of the others.
+static void carry_velocities(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *tasks, double dt,
+                             double h, bool upright)
+{
+    const area n = { s->columns_x + !upright, s->columns_y + upright };
+    const outside o = outside_of_velocity(d, (near_real)(upright ? d->flow.y : d->flow.x));
+    find_across(s, n, upright);
+    const stride way = stride_of_velocities(s, n, dt, h);
+    const load l = { .s = s,
+                     .n = n,
+                     .flux_x = s->across_x,
+                     .flux_y = s->across_y,
+                     .moves = upright ? s->open_v : s->open_u,
+                     .step = way.step };
+    carry(l, upright ? s->v : s->u, &o, tasks, way.parts);
+}
+
 void pl_air_carry_velocities(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *tasks, double dt,
                              double h)
 {
-    const stride way = stride_of(s, dt, h, MOST_MOVES);
-    if (way.parts == 0) {
-        return;
+    carry_velocities(s, d, tasks, dt, h, false);
+    carry_velocities(s, d, tasks, dt, h, true);
+}
+
+static stride stride_of_scalars(const pl_air_scratch *s, area n, double dt, double h)
+{
+    near_real most = 0;
+    for (int32_t j = 0; j < n.lines; ++j) {
+        for (int32_t i = 0; i < n.columns; ++i) {
+            const size_t k = pl_air_at(s, i, j);
+            most = most_of(most, s->share[k] * exchange_of(s->flux_u, s->flux_v, k, s->stride).out);
+        }
     }
-    load l = { .s = s, .flux_x = s->across_x, .flux_y = s->across_y, .step = way.step };
-    outside o = outside_of_velocity(d, (near_real)d->flow.x);
-    l.n = (area){ s->columns_x + 1, s->columns_y };
-    l.moves = s->open_u;
-    find_across(s, l.n, false);
-    carry(l, s->u, &o, tasks, way.parts);
-    o = outside_of_velocity(d, (near_real)d->flow.y);
-    l.n = (area){ s->columns_x, s->columns_y + 1 };
-    l.moves = s->open_v;
-    find_across(s, l.n, true);
-    carry(l, s->v, &o, tasks, way.parts);
+    return stride_of((double)most, dt, h, MOST_LEAVES);
 }
 
 static bool is_all_zero(const pl_air_scratch *s, const near_real *q)
@@ -406,19 +435,16 @@ static bool is_all_zero(const pl_air_scratch *s, const near_real *q)
 void pl_air_carry_scalars(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *tasks, double dt,
                           double h)
 {
-    const stride way = stride_of(s, dt, h, MOST_LEAVES);
     const outside o = outside_of_scalars(d);
     near_real *const all[] = { s->smoke, s->heat };
     const area n = { s->columns_x, s->columns_y };
-    if (way.parts == 0) {
-        return;
-    }
     for (int32_t j = 0; j < n.lines; ++j) {
         for (int32_t i = 0; i < n.columns; ++i) {
             const size_t k = pl_air_at(s, i, j);
             s->share[k] = s->room[k] > 0 ? 1 / s->room[k] : 0;
         }
     }
+    const stride way = stride_of_scalars(s, n, dt, h);
     for (int i = 0; i < 2; ++i) {
         if (!is_all_zero(s, all[i])) {
             const load l = { .s = s,

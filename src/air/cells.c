@@ -154,3 +154,86 @@ void pl_air_from_grid(pl_air_scratch *s)
     }
     take_last_faces(s, g);
 }
+
+//---- slits ---------------------------------------------------------------------------------------
+
+#define SLIT ((near_real)0.1) // of a face: what is open of one that is open by less is shut
+
+static bool is_slit(near_real open)
+{
+    return open > 0 && open < SLIT;
+}
+
+static near_real open_of(const pl_liquid_grid *g, uint32_t cell, bool upright)
+{
+    return upright ? g->open_v[cell] : g->open_u[cell];
+}
+
+static void shut(near_real *open, near_real *speed)
+{
+    if (is_slit(*open)) {
+        *speed /= 1 - *open;
+        *open = 0;
+    }
+}
+
+void pl_air_shut_slits(pl_air_scratch *s)
+{
+    pl_liquid_grid *g = &s->liquid.grid;
+    for (uint32_t i = 0; i < g->link_count; ++i) {
+        pl_liquid_link *link = &g->links[i];
+        const near_real open = open_of(g, link->cell, link->upright);
+        link->part /= is_slit(open) ? 1 - open : 1;
+    }
+    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
+        pl_liquid_soft_link *link = &g->soft_links[i];
+        const near_real open = open_of(g, link->cell, link->upright);
+        link->part /= is_slit(open) ? 1 - open : 1;
+    }
+    for (uint32_t c = 0; c < g->cell_count; ++c) {
+        shut(&g->open_u[c], &g->solid_u[c]);
+        shut(&g->open_v[c], &g->solid_v[c]);
+    }
+}
+
+//---- what moving solids uncover ------------------------------------------------------------------
+
+static near_real speed_of(near_real sum, near_real open)
+{
+    return open < 1 ? sum / (1 - open) : 0;
+}
+
+void pl_air_keep_speeds(pl_air_scratch *s)
+{
+    const pl_liquid_grid *g = &s->liquid.grid;
+    for (int32_t j = 0; j <= s->columns_y; ++j) {
+        for (int32_t i = 0; i <= s->columns_x; ++i) {
+            const uint32_t c = pl_liquid_cell_at(g, s->low_x + i, s->low_y + j);
+            const size_t k = pl_air_at(s, i, j);
+            s->now[k] = speed_of(g->solid_u[c], s->open_u[k]);
+            s->now_v[k] = speed_of(g->solid_v[c], s->open_v[k]);
+        }
+    }
+}
+
+static near_real mix(near_real open, near_real before, near_real flow, near_real speed)
+{
+    return open > before ? (before * flow + (open - before) * speed) / open : flow;
+}
+
+void pl_air_uncover(pl_air_scratch *s)
+{
+    const pl_liquid_grid *g = &s->liquid.grid;
+    for (int32_t j = 0; j <= s->columns_y; ++j) {
+        for (int32_t i = 0; i <= s->columns_x; ++i) {
+            const uint32_t c = pl_liquid_cell_at(g, s->low_x + i, s->low_y + j);
+            const size_t k = pl_air_at(s, i, j);
+            if (j < s->columns_y) {
+                s->u[k] = mix(g->open_u[c], s->open_u[k], s->u[k], s->now[k]);
+            }
+            if (i < s->columns_x) {
+                s->v[k] = mix(g->open_v[c], s->open_v[k], s->v[k], s->now_v[k]);
+            }
+        }
+    }
+}

@@ -170,7 +170,7 @@ static bool run_half(const part *p, double dt)
     memcpy(s->now, s->u, bytes);
     memcpy(s->now_v, s->v, bytes);
     pl_liquid_find_inflow(g);
-    if (!pl_liquid_balance(memory, &s->liquid, true)) {
+    if (!pl_liquid_balance_rooms(memory, &s->liquid)) {
         return false;
     }
     pl_liquid_solve(g, p->push, SOLVE_TO, 0);
@@ -183,6 +183,33 @@ static bool run_half(const part *p, double dt)
     return true;
 }
 
+static bool close_faces(plumb_world *world)
+{
+    pl_air_scratch *s = world->air.scratch;
+    if (!pl_air_make_grid(&world->memory, s, pl_air_desc(&world->air)) ||
+        !pl_liquid_close_faces(&world->memory, &s->liquid)) {
+        return false;
+    }
+    pl_air_shut_slits(s);
+    return true;
+}
+
+// Solids go on, and close other faces.
+static bool move_solids(plumb_world *world, double dt)
+{
+    pl_air_scratch *s = world->air.scratch;
+    pl_liquid_place_solids(world, &s->liquid, dt);
+    if (s->liquid.grid.link_count == 0 && s->liquid.grid.body_count < 2) {
+        return true;
+    }
+    pl_air_keep_speeds(s);
+    if (!close_faces(world)) {
+        return false;
+    }
+    pl_air_uncover(s);
+    return true;
+}
+
 static bool run_part(plumb_world *world, double dt)
 {
     pl_air_scratch *s = world->air.scratch;
@@ -190,8 +217,7 @@ static bool run_part(plumb_world *world, double dt)
     pl_memory *memory = &world->memory;
     const plumb_air_desc *d = pl_air_desc(&world->air);
     const double h = (double)d->cell;
-    if (!pl_air_make_grid(memory, s, d) || !pl_liquid_close_faces(memory, &s->liquid) ||
-        !pl_liquid_plan(memory, &s->liquid) || !pl_air_make_wraps(memory, s, d) ||
+    if (!pl_liquid_plan(memory, &s->liquid) || !pl_air_make_wraps(memory, s, d) ||
         !pl_buffer_reserve(memory, &s->gains, g->body_count * sizeof(double[3]))) {
         return false;
     }
@@ -210,8 +236,7 @@ static bool run_part(plumb_world *world, double dt)
     if (!run_half(&p, dt / 2)) {
         return false;
     }
-    pl_liquid_place_solids(world, &s->liquid, dt);
-    return true;
+    return move_solids(world, dt);
 }
 
 //---- the passes ----------------------------------------------------------------------------------
@@ -262,6 +287,9 @@ plumb_result pl_run_air(plumb_world *world, plumb_real dt)
     const int parts = parts_of(world, (double)dt);
     const double part_dt = (double)dt / parts;
     pl_air_load(s, pl_air_items(air), MOST_PARTS * CELLS_A_PART * h / (double)dt);
+    if (!close_faces(world)) {
+        return PLUMB_E_MEMORY;
+    }
     for (int i = 0; i < parts; ++i) {
         if (!run_part(world, part_dt)) {
             return PLUMB_E_MEMORY;

@@ -292,12 +292,14 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
         if (!(next > 0)) {
             return;
         }
+        near_real *way = g->vectors[PL_LIQUID_S], *product = g->vectors[PL_LIQUID_Z];
         run(g, turn_chunks, k > 0 ? next / sigma : 0);
         sigma = next;
+        pl_liquid_even_rooms(g, way);
         run(g, multiply_chunks, 0);
-        near_real *way = g->vectors[PL_LIQUID_S], *product = g->vectors[PL_LIQUID_Z];
         const double bend =
             sum_of(g) + pl_liquid_add_links(g, way, product, push) + add_wraps(g, way, product);
+        pl_liquid_even_rooms(g, product);
         if (!(bend > 0)) {
             return;
         }
