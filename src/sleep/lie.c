@@ -56,12 +56,19 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count, bool steps)
     const uint8_t *kind = world->pieces.kind;
     const uint32_t own = narrow->manifold_count, all = own + narrow->borne_count;
     uint32_t *places = world->internal_edges.pair_count > 0 ? world->sleep.places.data : NULL;
+    uint32_t *fresh = narrow->fresh.data, fresh_at = 0,
+             fresh_kept = 0; // in the order of pairs, too
     uint32_t kept = 0, kept_manifolds = 0, taken[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT] = { 0 };
     for (uint32_t i = 0; i < pair_count; ++i) {
         pl_pair *pair = &pairs[i];
         // Manifolds lie in the order of their pairs.
         pl_manifold *its = pair->manifold < all ? &m[pair->manifold] : NULL;
         uint32_t root = island_of(world, pair);
+        if (fresh_at < narrow->fresh_count && fresh[fresh_at] == i) {
+            ++fresh_at;
+            fresh[fresh_kept] = kept;
+            fresh_kept += root == PL_NONE;
+        }
         if (places != NULL) {
             places[i] = root == PL_NONE ? kept : PL_NONE;
         }
@@ -89,6 +96,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count, bool steps)
     }
     list->count = kept;
     narrow->manifold_count = kept_manifolds;
+    narrow->fresh_count = fresh_kept;
     narrow->ends_stale = true; // rows move next
     if (places != NULL) {
         pl_internal_edges_follow(world, places, own);
