@@ -217,8 +217,8 @@ bool pl_liquid_even_out(pl_memory *memory, pl_liquid_scratch *scratch);
 
 // Takes out of vectors[PL_LIQUID_R] what has no answer, before it is solved for. False when out of memory.
 bool pl_liquid_balance(pl_memory *memory, pl_liquid_scratch *scratch, bool bodies_move);
-// The same, each closed room by itself, whatever bodies do to it; and the solution that follows moves no body to keep its volume. False
-// when out of memory.
+// The same where bodies reach into walls and close pockets off, which leak: the solution that follows evens such rooms out. False when out of
+// memory.
 bool pl_liquid_balance_rooms(pl_memory *memory, pl_liquid_scratch *scratch);
 // Takes the mean of such rooms out of a vector. O(their cells).
 void pl_liquid_even_rooms(const pl_liquid_grid *grid, near_real *vector);

@@ -275,6 +275,18 @@ static double most_of(const pl_liquid_grid *g)
     return most;
 }
 
+// Of rooms that are evened out: the cycle would make much of a mean, as it does not know bodies.
+static void even_residual(pl_liquid_grid *g)
+{
+    const near_real *inverse = g->vectors[PL_LIQUID_I];
+    near_real *r = g->vectors[PL_LIQUID_R], *z = g->vectors[PL_LIQUID_Z];
+    pl_liquid_even_rooms(g, r);
+    for (uint32_t i = 0; i < g->inmate_count; ++i) {
+        const uint32_t row = g->inmates[i].row;
+        z[row] = inverse[row] * r[row];
+    }
+}
+
 void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double floor)
 {
     const size_t bytes = (size_t)g->levels[0].end * LINE * sizeof(near_real);
@@ -282,6 +294,7 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
     memset(g->vectors[PL_LIQUID_S], 0, bytes);
     memset(g->vectors[PL_LIQUID_Z], 0, bytes);
     run(g, step_chunks, 0);
+    even_residual(g);
     const double wanted = tolerance * most_of(g), enough = wanted > floor ? wanted : floor;
     double sigma = 0;
     g->iterations = 0;
@@ -299,11 +312,11 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
         run(g, multiply_chunks, 0);
         const double bend =
             sum_of(g) + pl_liquid_add_links(g, way, product, push) + add_wraps(g, way, product);
-        pl_liquid_even_rooms(g, product);
         if (!(bend > 0)) {
             return;
         }
         run(g, step_chunks, sigma / bend);
+        even_residual(g);
         ++g->iterations;
     }
 }

@@ -5,9 +5,7 @@
 // were pressed together in it, has no answer, and conjugate gradients then find none for all other rooms, either. So its
 // mean is taken out. Without this 100 crates that fell into a pool of 14 m^2 pressed it to a seventh of its height.
 //
-// Where nothing is said of a room's volume but that it stays as bodies make it (pl_liquid_balance_rooms), a pressure that is the same in
-// all of the room does nothing. It is kept out of the solution: a body that closes a corner off, or reaches into a wall by a hair, would
-// have to be thrown about to change the volume by as little as rounding does, and conjugate gradients did not find that.
+// Air has bodies that reach into walls by a hair, and close corners off (pl_liquid_balance_rooms): see src/air/DECISIONS.md.
 //
 // Reads: openness, rows, links. Writes: vectors[PL_LIQUID_R]. Cost: O(cells + links).
 #include "liquid/liquid.h"
@@ -49,74 +47,118 @@ static void find_rooms(const pl_liquid_grid *g, uint32_t *leaders, bool bodies_m
     }
 }
 
-static pl_liquid_room *rooms_of(const pl_liquid_scratch *scratch)
+// Rooms, each at the place of its leader. Leader 0: it leads outside.
+typedef struct finding {
+    pl_liquid_room *rooms;
+    uint32_t *leaders;
+} finding;
+
+// Place for two, the rooms of the second behind those of the first.
+static bool make_place(pl_memory *memory, pl_liquid_scratch *scratch, finding f[2])
 {
-    return scratch->rooms.data;
+    const size_t n = scratch->grid.cell_count + scratch->grid.body_count;
+    if (!pl_buffer_reserve(memory, &scratch->rooms,
+                           2 * n * (sizeof(pl_liquid_room) + sizeof(uint32_t)))) {
+        return false;
+    }
+    pl_liquid_room *rooms = scratch->rooms.data;
+    uint32_t *leaders = (uint32_t *)(void *)(rooms + 2 * n);
+    memset(rooms, 0, 2 * n * sizeof *rooms);
+    f[0] = (finding){ rooms, leaders };
+    f[1] = (finding){ rooms + n, leaders + n };
+    return true;
 }
 
-static uint32_t *leaders_of(const pl_liquid_scratch *scratch)
+static uint32_t room_of(const pl_liquid_grid *g, const finding *f, uint32_t cell)
 {
-    const pl_liquid_grid *g = &scratch->grid;
-    return (uint32_t *)(void *)(rooms_of(scratch) + g->cell_count + g->body_count);
+    return g->row[cell] != 0 ? pl_union_leader(f->leaders, cell) : 0;
 }
 
-// 0: it leads outside, or has no row.
-static uint32_t room_of(const pl_liquid_grid *g, uint32_t *leaders, uint32_t cell)
+static void sum_up(const pl_liquid_grid *g, const finding *f)
 {
-    return g->row[cell] != 0 ? pl_union_leader(leaders, cell) : 0;
+    const near_real *r = g->vectors[PL_LIQUID_R];
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        pl_liquid_room *of = &f->rooms[room_of(g, f, c)];
+        of->sum += g->row[c] != 0 ? (double)r[g->row[c]] : 0;
+        of->count += g->row[c] != 0;
+    }
+}
+
+// Takes out of each cell its part of what its room has.
+static void take_out(const pl_liquid_grid *g, const finding *f)
+{
+    near_real *r = g->vectors[PL_LIQUID_R];
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        const uint32_t room = room_of(g, f, c);
+        if (room != 0) {
+            r[g->row[c]] -= (near_real)(f->rooms[room].sum / f->rooms[room].count);
+        }
+    }
 }
 
 bool pl_liquid_balance(pl_memory *memory, pl_liquid_scratch *scratch, bool bodies_move)
 {
-    const pl_liquid_grid *g = &scratch->grid;
-    near_real *r = g->vectors[PL_LIQUID_R];
-    const uint32_t n = g->cell_count + g->body_count;
-    if (!pl_buffer_reserve(memory, &scratch->rooms,
-                           n * (sizeof(pl_liquid_room) + sizeof(uint32_t)))) {
+    finding f[2];
+    if (!make_place(memory, scratch, f)) {
         return false;
     }
-    pl_liquid_room *rooms = rooms_of(scratch);
-    uint32_t *leaders = leaders_of(scratch);
-    find_rooms(g, leaders, bodies_move);
-    memset(rooms, 0, n * sizeof *rooms);
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        if (g->row[c] != 0) {
-            pl_liquid_room *of = &rooms[pl_union_leader(leaders, c)];
-            of->sum += (double)r[g->row[c]];
-            ++of->count;
-        }
-    }
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        const uint32_t room = room_of(g, leaders, c);
-        if (room != 0) {
-            r[g->row[c]] -= (near_real)(rooms[room].sum / rooms[room].count);
-        }
-    }
+    find_rooms(&scratch->grid, f->leaders, bodies_move);
+    sum_up(&scratch->grid, f);
+    take_out(&scratch->grid, f);
     return true;
 }
 
-//---- rooms that bodies make narrower -------------------------------------------------------------
+//---- rooms that leak -----------------------------------------------------------------------------
 
-// What a body does to the only closed room that it closes faces of, or to one of several.
+#define POCKET 16 // cells: a room of fewer is no vessel
+
+static bool is_pocket(const pl_liquid_room *room)
+{
+    return room->count < POCKET;
+}
+
+// What goes into all vessels of one body together is taken out of those into which it goes, as much as goes into each; of a pocket all. So none
+// is left with what its body would have to be thrown about for.
+static void share_out(const pl_liquid_grid *g, const finding *each, const finding *joined)
+{
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        const pl_liquid_room *room = &each->rooms[c]; // of the cells that it leads
+        if (room->count > 0 && !is_pocket(room)) {
+            pl_liquid_room *all = &joined->rooms[room_of(g, joined, c)];
+            all->sum += room->sum;
+            all->gain += room->sum > 0 ? room->sum : 0;
+            all->count += room->count;
+        }
+    }
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        pl_liquid_room *room = &each->rooms[c];
+        const uint32_t leader = room->count > 0 ? room_of(g, joined, c) : 0;
+        const pl_liquid_room *all = &joined->rooms[leader];
+        if (room->count > 0 && !is_pocket(room)) {
+            const double same = all->sum > 0 ? all->gain : all->sum - all->gain;
+            const bool gives = leader != 0 && room->sum * all->sum > 0;
+            room->sum = gives ? room->sum * (all->sum / same) : 0;
+        }
+    }
+}
+
+// [cells] that a body's motion fills of the vessels beside it in all, by 1 m/s to the right, up, by 1 rad/s.
 typedef struct squeeze {
     uint32_t room;
-    double volume[3]; // [cells] that go into it by 1 m/s to the right, up, by 1 rad/s
+    double volume[3];
 } squeeze;
 
 #define NONE_SQUEEZED 1e-4 // rounding of a body that a room is all around
 
-static void note_end(pl_liquid_room *rooms, squeeze *q, const pl_liquid_link *link, uint32_t room,
-                     double sign)
+static void note_end(const pl_liquid_grid *g, const finding *each, const finding *joined,
+                     squeeze *q, const pl_liquid_link *link, uint32_t cell, double sign)
 {
-    if (room == 0) {
-        return;
+    const uint32_t room = room_of(g, joined, cell);
+    if (room != 0 && !is_pocket(&each->rooms[room_of(g, each, cell)])) {
+        q->room = room;
+        q->volume[link->upright ? 1 : 0] += sign * (double)link->part;
+        q->volume[2] += sign * (double)(link->part * link->arm);
     }
-    if (q->room != 0 && q->room != room) {
-        rooms[q->room].even = rooms[room].even = true;
-    }
-    q->room = room;
-    q->volume[link->upright ? 1 : 0] += sign * (double)link->part;
-    q->volume[2] += sign * (double)(link->part * link->arm);
 }
 
 static bool is_squeezed(const squeeze *q, double h)
@@ -125,9 +167,9 @@ static bool is_squeezed(const squeeze *q, double h)
            fabs(q->volume[2]) > NONE_SQUEEZED * h;
 }
 
-// Which rooms have a volume that bodies change: those in which a body is that reaches into a wall, or out of them.
-static void find_squeezed(const pl_liquid_grid *g, pl_liquid_room *rooms, uint32_t *leaders,
-                          squeeze *of)
+// Which rooms are evened out: pockets, and vessels of a body that reaches into a wall, or out of them.
+static void find_leaks(const pl_liquid_grid *g, const finding *each, const finding *joined,
+                       squeeze *of)
 {
     for (uint32_t b = 0; b < g->body_count; ++b) {
         of[b] = (squeeze){ .room = 0 };
@@ -135,46 +177,53 @@ static void find_squeezed(const pl_liquid_grid *g, pl_liquid_room *rooms, uint32
     for (uint32_t i = 0; i < g->link_count; ++i) {
         const pl_liquid_link *link = &g->links[i];
         const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-        note_end(rooms, &of[link->body], link, room_of(g, leaders, link->cell), 1);
-        note_end(rooms, &of[link->body], link, room_of(g, leaders, other), -1);
+        note_end(g, each, joined, &of[link->body], link, link->cell, 1);
+        note_end(g, each, joined, &of[link->body], link, other, -1);
     }
     for (uint32_t b = 0; b < g->body_count; ++b) {
-        rooms[of[b].room].even |= is_squeezed(&of[b], (double)g->h);
+        joined->rooms[of[b].room].even |= is_squeezed(&of[b], (double)g->h);
     }
-    for (uint32_t i = 0; i < g->soft_link_count; ++i) {
-        const pl_liquid_soft_link *link = &g->soft_links[i];
-        const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-        rooms[room_of(g, leaders, link->cell)].even = true;
-        rooms[room_of(g, leaders, other)].even = true;
+    joined->rooms[0].even = false;
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        each->rooms[c].even = each->rooms[c].count > 0 && is_pocket(&each->rooms[c]);
     }
-    rooms[0].even = false;
+}
+
+static void list_inmates(pl_liquid_grid *g, const finding *each, const finding *joined)
+{
+    const uint32_t behind = g->cell_count + g->body_count; // where the joined ones begin
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        const uint32_t own = room_of(g, each, c), all = room_of(g, joined, c);
+        if (own != 0 && (each->rooms[own].even || joined->rooms[all].even)) {
+            const uint32_t room = each->rooms[own].even ? own : behind + all;
+            g->inmates[g->inmate_count++] = (pl_liquid_inmate){ g->row[c], room };
+        }
+    }
 }
 
 bool pl_liquid_balance_rooms(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
-    g->inmate_count = 0;
-    if (!pl_liquid_balance(memory, scratch, false)) {
-        return false;
-    }
-    if (g->link_count == 0 && g->soft_link_count == 0) {
-        return true;
-    }
+    finding f[2];
     const size_t squeezes = g->body_count * sizeof(squeeze);
-    if (!pl_buffer_reserve(memory, &scratch->inmates,
+    g->inmate_count = 0;
+    if (!make_place(memory, scratch, f) ||
+        !pl_buffer_reserve(memory, &scratch->inmates,
                            squeezes + g->cell_count * sizeof(pl_liquid_inmate))) {
         return false;
     }
-    squeeze *of = scratch->inmates.data;
-    uint32_t *leaders = leaders_of(scratch);
-    g->rooms = rooms_of(scratch);
-    g->inmates = (pl_liquid_inmate *)(void *)(of + g->body_count);
-    find_squeezed(g, g->rooms, leaders, of);
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        const uint32_t room = room_of(g, leaders, c);
-        if (g->rooms[room].even) {
-            g->inmates[g->inmate_count++] = (pl_liquid_inmate){ g->row[c], room };
-        }
+    const finding *each = &f[0], *joined = &f[1];
+    find_rooms(g, each->leaders, false);
+    find_rooms(g, joined->leaders, true);
+    sum_up(g, each);
+    share_out(g, each, joined);
+    take_out(g, each);
+    if (g->link_count > 0 || g->soft_link_count > 0) {
+        squeeze *of = scratch->inmates.data;
+        g->rooms = each->rooms;
+        g->inmates = (pl_liquid_inmate *)(void *)(of + g->body_count);
+        find_leaks(g, each, joined, of);
+        list_inmates(g, each, joined);
     }
     return true;
 }

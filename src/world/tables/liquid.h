@@ -171,7 +171,7 @@ typedef struct pl_liquid_wrap {
 
 // Cells that open faces join, and what is summed up of them.
 typedef struct pl_liquid_room {
-    double sum;
+    double sum, gain; // gain: of those above 0
     uint32_t count;
     bool even; // its mean is taken out of pressures
 } pl_liquid_room;
