@@ -326,12 +326,32 @@ static void tell_sweeps(plumb_world *world, real dt)
     }
 }
 
-static void forget_requests(plumb_world *world)
+void pl_one_way_forget(plumb_world *world)
 {
     for (uint32_t row = 0; world->dropping_bodies > 0 && row < world->dynamic_count; ++row) {
         world->bodies.flags[row] &= (uint16_t)~PL_BODY_DROPPING;
     }
     world->dropping_bodies = 0;
+}
+
+static uint32_t noted(uint32_t flags)
+{
+    return ((flags & PL_PAIR_HELD) != 0 ? PL_PAIR_WAS_HELD : 0) |
+           ((flags & PL_PAIR_PASSING) != 0 ? PL_PAIR_WAS_PASSING : 0) |
+           ((flags & PL_PAIR_DROPPING) != 0 ? PL_PAIR_WAS_DROPPING : 0);
+}
+
+void pl_one_way_undo(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; world->one_way_noted && i < world->broad.pairs.count; ++i) {
+        const uint32_t flags = pairs[i].flags;
+        pairs[i].flags = (flags & ~PL_PAIR_ONE_WAY) |
+                         ((flags & PL_PAIR_WAS_HELD) != 0 ? PL_PAIR_HELD : 0) |
+                         ((flags & PL_PAIR_WAS_PASSING) != 0 ? PL_PAIR_PASSING : 0) |
+                         ((flags & PL_PAIR_WAS_DROPPING) != 0 ? PL_PAIR_DROPPING : 0);
+    }
+    world->one_way_noted = false;
 }
 
 void pl_one_way_run(plumb_world *world, plumb_real dt)
@@ -350,7 +370,8 @@ void pl_one_way_run(plumb_world *world, plumb_real dt)
         const bool held = (pair->flags & PL_PAIR_HELD) != 0;
         uint32_t state =
             pair->manifold == PL_NONE ? 0 : next_state(world, pair, &m[pair->manifold]);
-        pair->flags = (pair->flags & ~PL_PAIR_ONE_WAY) | state;
+        pair->flags =
+            (pair->flags & ~(PL_PAIR_ONE_WAY | PL_PAIR_WAS_ONE_WAY)) | state | noted(pair->flags);
         if (pair->manifold == PL_NONE) {
             continue;
         }
@@ -372,7 +393,7 @@ void pl_one_way_run(plumb_world *world, plumb_real dt)
     for (uint32_t i = 0; just_held && i < world->narrow.manifold_count; ++i) {
         m[i].disabled &= 1u;
     }
-    forget_requests(world);
+    world->one_way_noted = true;
     if (any) {
         pl_narrow_take_out_disabled(world, 0);
     }

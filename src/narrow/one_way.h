@@ -18,6 +18,11 @@ bool pl_one_way_wanted(const plumb_world *world, const char **reason);
 // Takes out the manifolds of pairs that pass, and keeps up the pairs' flags, for a step of dt [s].
 void pl_one_way_run(plumb_world *world, plumb_real dt);
 
+// The step was refused: pairs are what they were before it.
+void pl_one_way_undo(plumb_world *world);
+// Behind the last pass that can refuse it: nobody asks to drop through any more.
+void pl_one_way_forget(plumb_world *world);
+
 // Writes a checked property to all pieces of a shape and keeps up the counter.
 void pl_one_way_apply(plumb_world *world, uint32_t first, const plumb_one_way *one_way);
 plumb_result pl_one_way_check(const plumb_world *world, const char *function,

@@ -220,7 +220,7 @@
     LEFT(memory) LEFT(query_grids) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) VALUE(soft_substep) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
     VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
-    VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \
+    LEFT(one_way_noted) VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \
     OWN(tombstones) LEFT(tasks)                                                                        \
     VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
     TABLE(materials) OWN(components) OWN(systems)                                                  \

@@ -145,6 +145,7 @@ static void publish(plumb_world *world, plumb_real dt)
     if (dt == 0) {
         pl_internal_edges_give_back(world);
     }
+    pl_one_way_forget(world);
 }
 
 RUN(pl_run_guard, pl_quarantine_guard(world, dt, "calls"))

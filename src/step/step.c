@@ -13,6 +13,7 @@
 #include "broad/pairs.h"
 #include "liquid/liquid.h"
 #include "narrow/ahead.h"
+#include "narrow/one_way.h"
 #include "sleep/sleep.h"
 #include "step/measure.h"
 #include "step/place.h"
@@ -298,7 +299,7 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
     if (world->schedule_dirty || world->systems.count > 0) {
         pl_schedule_revise(world);
     }
-    world->characters.moved = false;
+    world->characters.moved = world->one_way_noted = false;
     return run_passes(world, dt);
 }
 
@@ -312,6 +313,7 @@ static void undo_step(plumb_world *world)
     pl_sleep_undo_close(world);
     pl_tracks_undo(world);
     pl_ahead_undo(world);
+    pl_one_way_undo(world);
     pl_pairs_undo_seek(world, world->lookahead.sought.data, world->lookahead.sought_count);
     pl_internal_edges_undo(world);
     world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them

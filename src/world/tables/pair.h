@@ -26,6 +26,11 @@ typedef struct pl_pair {
 #define PL_PAIR_PASSING  128u   // it is under way through it
 #define PL_PAIR_DROPPING 16384u // it was held and asked to drop through
 #define PL_PAIR_ONE_WAY  (PL_PAIR_HELD | PL_PAIR_PASSING | PL_PAIR_DROPPING)
+// These as they were before the step, should it be taken anew (narrow/one_way.c).
+#define PL_PAIR_WAS_HELD     268435456u
+#define PL_PAIR_WAS_PASSING  536870912u
+#define PL_PAIR_WAS_DROPPING 1073741824u
+#define PL_PAIR_WAS_ONE_WAY  (PL_PAIR_WAS_HELD | PL_PAIR_WAS_PASSING | PL_PAIR_WAS_DROPPING)
 #define PL_PAIR_AHEAD                                                                              \
     32768u // its manifold is that of a later moment; only within the narrow phase (narrow/ahead.h)
 #define PL_PAIR_COVERED                                                                            \
