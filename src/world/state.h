@@ -103,7 +103,7 @@ struct plumb_world {
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
     uint32_t one_way_pieces;
-    bool one_way_noted; // in this step: pairs know what they were
+    bool one_way_noted;       // in this step: pairs know what they were
     uint32_t dropping_bodies; // requests to drop through since the last step
     uint32_t locked_bodies;   // bodies locked in x or y
     pl_body_settings_list settings;
