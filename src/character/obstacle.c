@@ -15,6 +15,7 @@
 #include "query/query.h"
 #include "world/check.h"
 #include "world/filter.h"
+#include "world/rows.h"
 
 #include <math.h>
 #include <string.h>
@@ -177,12 +178,33 @@ void pl_obstacle_velocity(const pl_obstacle *o, double x, double y, double *vx, 
     *vy = o->vy + o->w * (x - o->cx);
 }
 
+// Of a dynamic one with a piece; who sleeps has taken his contacts along.
+static const pl_pair *pair_with(const pl_walker *m, uint32_t piece)
+{
+    const plumb_world *world = m->world;
+    const pl_sleep *s = &world->sleep;
+    if (!pl_row_is_asleep(world, m->row)) {
+        return pl_pairs_find_one(world, piece, m->piece);
+    }
+    uint32_t c = pl_islands(s)[world->bodies.island[m->row]].first_contact;
+    while (c != PL_NONE) {
+        const pl_sleeping_contact *contact = pl_sleeping_contacts(s) + c;
+        const pl_pair *pair = &contact->pair;
+        if ((pair->a == piece && pair->b == m->piece) ||
+            (pair->b == piece && pair->a == m->piece)) {
+            return pair;
+        }
+        c = contact->next;
+    }
+    return NULL;
+}
+
 // Of a dynamic one its contacts know.
 static bool is_under_way(const pl_walker *m, uint32_t piece, bool *dropping)
 {
     const pl_character *c = m->c;
     if (m->world->bodies.type[m->row] == PLUMB_DYNAMIC) {
-        const pl_pair *pair = pl_pairs_find_one(m->world, piece, m->piece);
+        const pl_pair *pair = pair_with(m, piece);
         *dropping = pair != NULL && (pair->flags & PL_PAIR_DROPPING) != 0;
         return pair != NULL && pl_pair_passes(pair);
     }

@@ -201,6 +201,32 @@ static void drops_and_flies(void **state)
     plumb_world_destroy(world);
 }
 
+// Put to sleep half way through a plank, and told to walk: the plank lets pass, awake or not.
+static void passes_out_of_sleep(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; ++k) {
+        plumb_world *world = make_world();
+        add_floor(world);
+        plumb_body plank = add_body(world, PLUMB_STATIC, V(0, 1));
+        plumb_shape_create(world, plank,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                .half = { 2, R(0.1) },
+                                                .one_way = { { 0, 1 }, 0 } });
+        plumb_body hero = add_walker(world, 0, 1.1, NULL);
+        run(world, 60, 0.5);
+        assert_true(plumb_character_drop(world, hero));
+        run(world, 60, (1 + k) / 60.0);
+        assert_int_equal(plumb_body_sleep(world, hero), PLUMB_OK);
+        assert_int_equal(plumb_character_walk(world, hero, 1), PLUMB_OK);
+        run(world, 60, 1.0 / 60);
+        assert_true(!state_of(world, hero).on_ground || y_of(world, hero) < STANDS + 0.04);
+        run(world, 60, 1);
+        assert_near(y_of(world, hero), STANDS, 2e-3);
+        plumb_world_destroy(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -212,6 +238,7 @@ int main(void)
         cmocka_unit_test(platforms),
         cmocka_unit_test(action_and_reaction),
         cmocka_unit_test(drops_and_flies),
+        cmocka_unit_test(passes_out_of_sleep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
