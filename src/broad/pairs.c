@@ -406,7 +406,9 @@ bool pl_pairs_seek(plumb_world *world, const pl_keyed *sought, uint32_t count)
     }
     broad->rebuilds += merge(world, NULL, &sorted, broad->left_marks.data);
     for (uint32_t i = 0; i < count; ++i) {
-        find_sought(world, &sought[i])->flags |= PL_PAIR_SOUGHT;
+        pl_pair *pair = find_sought(world, &sought[i]);
+        // The face that parts the pieces as the step begins says nothing of later.
+        pair->flags = (pair->flags & ~PL_PAIR_FACE_MASK) | PL_PAIR_SOUGHT;
     }
     return true;
 }
