@@ -453,12 +453,10 @@ enum { WORLDS = 40 };
 // 32, float, and 128, 139, 150, double: characters saw awake what had slept when the step was first tried (sleep/retry.c).
 // 137, float, once more, and 2, far: others were looked at than the new contacts, after some pairs had fallen asleep (sleep/lie.c). 30, double, and
 // 6, far: a pair held, or passed, by what the refused step had found of a one-way shape (narrow/one_way.c). 63, float and double: a character that slept
-// half way through one stood on it (character/obstacle.c).
-static const unsigned once[] = { 17, 137, 274, 32, 128, 139, 150, 63 };
+// half way through one stood on it (character/obstacle.c). 193, double: a pair that an impact made meet was parted by a face that it remembered
+// (broad/pairs.c).
+static const unsigned once[] = { 17, 137, 274, 32, 128, 139, 150, 63, 193 };
 #define ONCE (sizeof once / sizeof once[0])
-
-// Open: 193, double, restored and refused: after step 167; a pair that never touched is lost, by boxes that a refused step made, and its body
-// rests anew (broad/pairs.c, lose_pair).
 
 static unsigned asked(const char *name, unsigned otherwise)
 {
