@@ -148,7 +148,8 @@ static uint32_t refine(const pl_looking *l, uint32_t count)
     for (uint32_t i = 0; i < count; ++i) {
         pl_toi *item = &pl_looking_items(l->ahead)[listed[i]];
         const pl_manifold *then = made_of(l->ahead, i);
-        if (then != NULL && pl_toi_refine(item, &pl_manifolds(l->narrow)[item->manifold], then) &&
+        const pl_manifold *m = &pl_manifolds(l->narrow)[item->manifold];
+        if (!pl_toi_ends_apart(item, m, then) && then != NULL && pl_toi_refine(item, m, then) &&
             item->verdict == PL_TOI_OPEN) {
             listed[kept++] = listed[i];
         }
@@ -200,6 +201,27 @@ static void look_at_open(pl_looking *l)
 
 //---- which contacts are looked at ----------------------------------------------------------------
 
+// [rad] by which pieces turn in a step that bring other corners forward than those of their manifold.
+#define TURNING 0.02
+
+static bool is_turning(const pl_path *p)
+{
+    double turn = p->flight.turn;
+    bool far = fabs(turn) > TURNING;
+    for (int i = 0; i < p->turns; ++i) {
+        turn += p->change[i].turn;
+        far = far || fabs(turn) > TURNING;
+    }
+    return far;
+}
+
+// Whether points may meet that are not of the manifold: of pieces that bounce and turn, but for two round ones.
+static bool turns(pl_looking *l, const pl_manifold *m)
+{
+    return pl_is_elastic(m->restitution) && (m->met & PL_MET_TURNS) != PL_MET_TURNS_MID &&
+           (is_turning(pl_looking_path(l, m->body_a)) || is_turning(pl_looking_path(l, m->body_b)));
+}
+
 // Lists candidate i.
 static bool list(pl_looking *l, uint32_t i)
 {
@@ -217,6 +239,7 @@ static bool list(pl_looking *l, uint32_t i)
     item->manifold = manifold;
     item->sought = (candidate & PL_CANDIDATE_SOUGHT) != 0;
     item->paths = pl_looking_paths(l, m);
+    item->turns = turns(l, m);
     ((uint32_t *)ahead->listed.data)[i] = ahead->count;
     return true;
 }
@@ -282,7 +305,7 @@ static bool reaches_turned(pl_looking *l, const pl_manifold *m)
     return acts;
 }
 
-// Lists the candidates whose planes act, in free flight or where a strike turns it, and what is sought.
+// Lists the candidates whose planes act, in free flight or where a strike turns it, what turns, and what is sought.
 static bool list_acting(pl_looking *l)
 {
     const uint32_t *candidates = l->narrow->candidates.data;
@@ -292,10 +315,11 @@ static bool list_acting(pl_looking *l)
         if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0) {
             continue;
         }
+        const pl_manifold *m = &pl_manifolds(l->narrow)[place];
         const bool struck =
             pl_looking_is_struck(l, ends[place].a) || pl_looking_is_struck(l, ends[place].b);
         if (((candidates[i] & (PL_CANDIDATE_ACTS | PL_CANDIDATE_SOUGHT)) != 0 ||
-             (struck && reaches_turned(l, &pl_manifolds(l->narrow)[place]))) &&
+             (struck && reaches_turned(l, m)) || turns(l, m)) &&
             !list(l, i)) {
             return false;
         }
@@ -320,7 +344,7 @@ static bool list_again(pl_looking *l, bool *any)
         }
         const pl_manifold *m = &pl_manifolds(l->narrow)[place];
         if (listed[i] == 0) {
-            if (reaches_turned(l, m)) {
+            if (reaches_turned(l, m) || turns(l, m)) {
                 *any = true;
                 if (!list(l, i)) {
                     return false;
@@ -336,6 +360,7 @@ static bool list_again(pl_looking *l, bool *any)
             !pl_looking_is_same_way(&item->paths.of[1], pl_looking_path(l, ends[place].b),
                                     before)) {
             item->paths = pl_looking_paths(l, m);
+            item->turns = turns(l, m);
             item->verdict = PL_TOI_OPEN;
             *any = true;
         }

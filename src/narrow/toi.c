@@ -5,6 +5,10 @@
 // meet. Where it leads nowhere they are swept (path.h): to the first moment at which they meet, or, as they never do, to
 // that at which they are nearest.
 //
+// A plane that no point of the manifold reaches may yet be passed by another corner, as the pieces turn. Of what bounces the end of
+// the ways is asked, and where they overlap there, Newton's method goes back from that. What dips in and out again within a step is not
+// seen so.
+//
 // Reads: the manifold, ways, piece geometry. Writes: the answer. Cost: a kernel's lane and two poses a round; a sweep of some
 // thousand instructions, and a search of 16 gaps where it ends in nothing.
 #include "narrow/toi.h"
@@ -83,18 +87,41 @@ static bool reaches_freely(const pl_paths *paths, const pl_manifold *m)
     return reaches;
 }
 
+static pl_toi_state without_contact(const pl_toi *item, const pl_manifold *m)
+{
+    return reaches_freely(&item->paths, m) ? PL_TOI_HELD : PL_TOI_KEEPS;
+}
+
 void pl_toi_open(pl_toi *item, const pl_manifold *m)
 {
     closings c;
     find_closings(&c, &item->paths, m);
     item->verdict = PL_TOI_OPEN;
-    item->close = false;
+    item->close = item->at_end = false;
     item->time = item->meets = first_time(&c, &item->paths, m, 0);
     if (item->time <= 1) {
         item->time = first_time(&c, &item->paths, m, AIM);
         return;
     }
-    item->verdict = reaches_freely(&item->paths, m) ? PL_TOI_HELD : PL_TOI_KEEPS;
+    if (item->turns) {
+        item->at_end = true;
+        item->time = 1;
+        return;
+    }
+    item->verdict = without_contact(item, m);
+}
+
+bool pl_toi_ends_apart(pl_toi *item, const pl_manifold *m, const pl_manifold *then)
+{
+    const bool asked = item->at_end;
+    item->at_end = false;
+    if (!asked ||
+        (then != NULL && (then->point[0].separation < 0 || then->point[1].separation < 0))) {
+        return false;
+    }
+    item->verdict = without_contact(item, m);
+    item->time = item->meets; // never
+    return true;
 }
 
 void pl_toi_pose(pl_toi *item, const plumb_world *world, const pl_pair *pair)

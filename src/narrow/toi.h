@@ -27,6 +27,8 @@ typedef struct pl_toi {
     double
         meets; // KEEPS, HIT: when they touch: the manifold may be that of a moment somewhat before
     bool sought; // PL_PAIR_SOUGHT
+    bool turns;  // the pieces turn: other corners may meet than those of the manifold of the start
+    bool at_end; // which is asked at the end of the ways
     bool close;  // so near to it that one step more is the last
     pl_paths paths;
     pl_pose poses[2];        // of then; the origin is A's centre of mass at the start of the step
@@ -35,8 +37,11 @@ typedef struct pl_toi {
     near_real nx, ny;        // from A to B
 } pl_toi;
 
-// When the plane of the manifold acts, as `time`; where it does not, the verdict is KEEPS or HELD.
+// When the plane of the manifold acts, as `time`; where it does not, the verdict is KEEPS or HELD, but of what turns.
 void pl_toi_open(pl_toi *item, const pl_manifold *m);
+// Of an item that is asked at the end of the ways: whether the pieces are apart there, so that the verdict is KEEPS or HELD. then: what the
+// kernel makes of that time; NULL: nothing.
+bool pl_toi_ends_apart(pl_toi *item, const pl_manifold *m, const pl_manifold *then);
 // Sets the poses of item->time.
 void pl_toi_pose(pl_toi *item, const plumb_world *world, const pl_pair *pair);
 // One step of Newton's method towards the moment of contact, from what the kernel makes of item->time. False: it does not lead there,
