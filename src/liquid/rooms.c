@@ -207,6 +207,9 @@ bool pl_liquid_balance_rooms(pl_memory *memory, pl_liquid_scratch *scratch)
     finding f[2];
     const size_t squeezes = g->body_count * sizeof(squeeze);
     g->inmate_count = 0;
+    if (g->link_count == 0 && g->soft_link_count == 0) {
+        return pl_liquid_balance(memory, scratch, false);
+    }
     if (!make_place(memory, scratch, f) ||
         !pl_buffer_reserve(memory, &scratch->inmates,
                            squeezes + g->cell_count * sizeof(pl_liquid_inmate))) {
@@ -218,13 +221,11 @@ bool pl_liquid_balance_rooms(pl_memory *memory, pl_liquid_scratch *scratch)
     sum_up(g, each);
     share_out(g, each, joined);
     take_out(g, each);
-    if (g->link_count > 0 || g->soft_link_count > 0) {
-        squeeze *of = scratch->inmates.data;
-        g->rooms = each->rooms;
-        g->inmates = (pl_liquid_inmate *)(void *)(of + g->body_count);
-        find_leaks(g, each, joined, of);
-        list_inmates(g, each, joined);
-    }
+    squeeze *of = scratch->inmates.data;
+    g->rooms = each->rooms;
+    g->inmates = (pl_liquid_inmate *)(void *)(of + g->body_count);
+    find_leaks(g, each, joined, of);
+    list_inmates(g, each, joined);
     return true;
 }
 
