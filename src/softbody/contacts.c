@@ -352,24 +352,33 @@ static double rate_of(const pl_soft_step *s, const pl_soft_contact *c, const way
 
 // An impulse along a way, and a stiffness for the matrix.
 static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, double impulse,
-                double stiff)
+                double stiff, pl_soft_fill fill)
 {
     const pl_soft_matrix *m = &s->matrix;
     const pl_soft_point *p = points_of(s) + c->point;
     const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
-    double *right = m->right + 3 * (size_t)p->block, *own = m->diagonal + 9 * (size_t)p->block;
+    double *right = m->right + 3 * (size_t)p->block,
+           *at = m->right + 3 * (size_t)(b->block == PL_NONE ? 0 : b->block);
     for (int r = 0; r < 2; ++r) {
         right[r] += impulse * w->node[r];
+    }
+    for (int r = 0; r < 3 && b->block != PL_NONE; ++r) {
+        at[r] += impulse * w->body[r];
+    }
+    if (fill != PL_SOFT_ALL) {
+        return;
+    }
+    double *own = m->diagonal + 9 * (size_t)p->block;
+    for (int r = 0; r < 2; ++r) {
         own[3 * r] += stiff * w->node[r] * w->node[0];
         own[3 * r + 1] += stiff * w->node[r] * w->node[1];
     }
     if (b->block == PL_NONE) {
         return;
     }
-    double *other = pl_soft_entry(m, b->block, p->block), *at = m->right + 3 * (size_t)b->block;
+    double *other = pl_soft_entry(m, b->block, p->block);
     double *body = m->diagonal + 9 * (size_t)b->block;
     for (int r = 0; r < 3; ++r) {
-        at[r] += impulse * w->body[r];
         for (int k = 0; k < 3; ++k) {
             body[3 * r + k] += stiff * w->body[r] * w->body[k];
         }
@@ -378,18 +387,18 @@ static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, d
     }
 }
 
-static double press(pl_soft_step *s, pl_soft_contact *c, double h, bool fills)
+static double press(pl_soft_step *s, pl_soft_contact *c, double h, pl_soft_fill fill)
 {
     const way n = way_along(s, c, c->nx, c->ny), t = way_along(s, c, -c->ny, c->nx);
     const double gap = c->gap + h * (1.5 * rate_of(s, c, &n, false) + rate_of(s, c, &n, true));
     const double force = gap < 0 ? -c->stiffness * gap : 0;
-    if (fills) {
+    if (fill == PL_SOFT_ALL) {
         c->most = s->pass == 0 ? 0 : s->pass < LAG ? c->friction * force : c->most;
     }
     c->force = force;
     double energy = force * -gap / 2;
-    if (force > 0 && fills) {
-        act(s, c, &n, h * force, h * h * c->stiffness);
+    if (force > 0 && fill != PL_SOFT_VALUE) {
+        act(s, c, &n, h * force, h * h * c->stiffness, fill);
     }
     if (!(c->most > 0)) {
         return energy;
@@ -398,18 +407,18 @@ static double press(pl_soft_step *s, pl_soft_contact *c, double h, bool fills)
     const bool slides = speed > s->creep;
     const double hold = c->most / (slides ? speed : s->creep);
     energy += h * c->most * (slides ? speed - s->creep / 2 : speed * speed / (2 * s->creep));
-    if (fills) {
-        act(s, c, &t, -h * hold * slip, h * hold * (slides ? SLIDING : 1));
+    if (fill != PL_SOFT_VALUE) {
+        act(s, c, &t, -h * hold * slip, h * hold * (slides ? SLIDING : 1), fill);
     }
     return energy;
 }
 
-double pl_soft_press(pl_soft_step *s, double h, bool fills)
+double pl_soft_press(pl_soft_step *s, double h, pl_soft_fill fill)
 {
     pl_soft_contact *contacts = s->contacts.data;
     double energy = 0;
     for (uint32_t i = 0; i < s->contact_count; ++i) {
-        energy += press(s, &contacts[i], h, fills);
+        energy += press(s, &contacts[i], h, fill);
     }
     return energy;
 }

@@ -98,7 +98,7 @@ static answer thread(double k, double c, const asked *e)
 }
 
 static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t first, double h,
-                   bool fills, pl_soft_pull *now)
+                   pl_soft_fill fill, pl_soft_pull *now)
 {
     const uint32_t ia = first + e->a, ib = first + e->b;
     const pl_soft_point *a = pl_soft_point_at(s, ia), *b = pl_soft_point_at(s, ib);
@@ -123,13 +123,15 @@ static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t
     const bool pulls = (e->flags & PLUMB_EDGE_PULLS) != 0;
     const answer f = pulls ? thread(k, c, &way) : spring_and_damper(k, c, &way);
     now->tension = f.tension;
-    if (fills && (f.tension != 0 || f.slope != 0)) {
+    if (fill != PL_SOFT_VALUE && f.tension != 0) {
+        pl_soft_push(s, ia, h * f.tension * x, h * f.tension * y);
+        pl_soft_push(s, ib, -h * f.tension * x, -h * f.tension * y);
+    }
+    if (fill == PL_SOFT_ALL && (f.tension != 0 || f.slope != 0)) {
         const double along = h * f.slope, across = stretch > 0 ? h * tb * k * stretch / length : 0;
         const double own[4] = { along * x * x + across * y * y, (along - across) * x * y,
                                 (along - across) * x * y, along * y * y + across * x * x };
         const double other[4] = { -own[0], -own[1], -own[2], -own[3] };
-        pl_soft_push(s, ia, h * f.tension * x, h * f.tension * y);
-        pl_soft_push(s, ib, -h * f.tension * x, -h * f.tension * y);
         pl_soft_add(s, ia, ia, own);
         pl_soft_add(s, ib, ib, own);
         pl_soft_add(s, ia, ib, other);
@@ -172,7 +174,7 @@ static double wrapped(double angle)
 }
 
 static double bend(const pl_soft_step *s, const plumb_softbody_bend *e, uint32_t first, double h,
-                   bool fills)
+                   pl_soft_fill fill)
 {
     const uint32_t i[3] = { first + e->a, first + e->b, first + e->c };
     const double k = (double)e->stiffness / (double)e->length, l = (double)e->length;
@@ -195,9 +197,9 @@ static double bend(const pl_soft_step *s, const plumb_softbody_bend *e, uint32_t
     }
     const double turn = wrapped(turn_of(p[0], p[1], p[2]) - (double)e->angle);
     const double moment = k * turn + c * rate;
-    for (int n = 0; n < 3 && fills; ++n) {
+    for (int n = 0; n < 3 && fill != PL_SOFT_VALUE; ++n) {
         pl_soft_push(s, i[n], -h * moment * g[2 * n], -h * moment * g[2 * n + 1]);
-        for (int o = n; o < 3; ++o) {
+        for (int o = n; o < 3 && fill == PL_SOFT_ALL; ++o) {
             const double x = h * slope * g[2 * n], y = h * slope * g[2 * n + 1];
             const double block[4] = { x * g[2 * o], x * g[2 * o + 1], y * g[2 * o],
                                       y * g[2 * o + 1] };
@@ -251,7 +253,7 @@ static double density_of(const sheet *t, const double f[4])
 }
 
 static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, uint32_t first,
-                      double h, bool fills)
+                      double h, pl_soft_fill fill)
 {
     const uint32_t i[3] = { first + e->a, first + e->b, first + e->c };
     sheet t;
@@ -295,7 +297,7 @@ static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, u
     const double sum = time * (t.lambda - t.mu) * (rate[0] + rate[1]);
     const double stress[3] = { sum + 2 * time * t.mu * rate[0], sum + 2 * time * t.mu * rate[1],
                                time * t.mu * rate[2] };
-    if (fills) {
+    if (fill != PL_SOFT_VALUE) {
         const double near = h * h / 4 * t.area, late = h * LATE * time * t.area;
         for (int n = 0; n < 3; ++n) {
             double push[2], drag[3][2];
@@ -311,7 +313,7 @@ static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, u
                 }
             }
             pl_soft_push(s, i[n], -h * t.area * push[0], -h * t.area * push[1]);
-            for (int o = n; o < 3; ++o) {
+            for (int o = n; o < 3 && fill == PL_SOFT_ALL; ++o) {
                 const double even = t.mu * (t.g[n][0] * t.g[o][0] + t.g[n][1] * t.g[o][1]);
                 const double cross = twist * (t.g[n][0] * t.g[o][1] - t.g[n][1] * t.g[o][0]);
                 double block[4] = { even, cross, -cross, even };
@@ -370,7 +372,7 @@ static void slope_of_area(const pl_soft_step *s, uint32_t first, const uint32_t 
 
 // Its unknown is the impulse of pressure, scaled so that the matrix is symmetric.
 static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t first,
-                      const uint32_t *ring, uint32_t block, double h, bool fills)
+                      const uint32_t *ring, uint32_t block, double h, pl_soft_fill fill)
 {
     const pl_soft_matrix *mx = &s->matrix;
     const uint32_t n = item->ring;
@@ -386,7 +388,7 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
     const double stiff = (pressure + (double)item->ambient) / held;
     const double follow = pl_soft_point_at(s, first + ring[0])->follow;
     const double c = stiff * (h / 2 + follow), of = follow / (h / 2 + follow);
-    if (fills) {
+    if (fill == PL_SOFT_ALL) {
         mx->diagonal[9 * (size_t)block] = stiff > 0 ? -1 / (h * (h * stiff / 4 + LATE * c)) : -1;
     }
     for (uint32_t i = 0; i < n; ++i) {
@@ -396,13 +398,13 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
         rate += g[0] * (node->vx + LATE * node->cx - of * node->way_x) +
                 g[1] * (node->vy + LATE * node->cy - of * node->way_y);
     }
-    for (uint32_t i = 0; i < n && fills; ++i) {
+    for (uint32_t i = 0; i < n && fill != PL_SOFT_VALUE; ++i) {
         const uint32_t at = first + ring[i];
         double g[2], j[6];
         slope_of_area(s, first, ring, n, i, h, g);
         pl_soft_push(s, at, h * (pressure - c * rate) * g[0], h * (pressure - c * rate) * g[1]);
         const pl_soft_point *node = pl_soft_point_at(s, at);
-        if (node->block == PL_NONE || !(stiff > 0)) {
+        if (fill != PL_SOFT_ALL || node->block == PL_NONE || !(stiff > 0)) {
             continue;
         }
         pl_soft_follow(s, node, j);
@@ -416,7 +418,7 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
 
 //---- all of them ---------------------------------------------------------------------------------
 
-double pl_soft_elements(plumb_world *world, double h, bool fills)
+double pl_soft_elements(plumb_world *world, double h, pl_soft_fill fill)
 {
     double energy = 0;
     const pl_softbodies *all = &world->softbodies;
@@ -437,19 +439,18 @@ double pl_soft_elements(plumb_world *world, double h, bool fills)
         for (uint32_t k = 0; k < item->edges; ++k) {
             const plumb_softbody_edge *e = &pl_softbody_edges(all)[its.edge + k];
             if ((e->flags & PLUMB_EDGE_TORN) == 0) {
-                energy += pull(s, e, its.point, h, fills, &pulls[its.edge + k]);
+                energy += pull(s, e, its.point, h, fill, &pulls[its.edge + k]);
             }
         }
         for (uint32_t k = 0; k < item->bends; ++k) {
-            energy += bend(s, &pl_softbody_bends(all)[its.bend + k], its.point, h, fills);
+            energy += bend(s, &pl_softbody_bends(all)[its.bend + k], its.point, h, fill);
         }
         for (uint32_t k = 0; k < item->triangles; ++k) {
-            energy +=
-                stretch(s, &pl_softbody_triangles(all)[its.triangle + k], its.point, h, fills);
+            energy += stretch(s, &pl_softbody_triangles(all)[its.triangle + k], its.point, h, fill);
         }
         if (item->ring > 0) {
             energy +=
-                inflate(s, item, its.point, pl_softbody_rings(all) + its.ring, gas++, h, fills);
+                inflate(s, item, its.point, pl_softbody_rings(all) + its.ring, gas++, h, fill);
         }
     }
     return energy;

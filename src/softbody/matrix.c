@@ -101,7 +101,7 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     }
     grow_tree(m);
     count_columns(m);
-    const size_t numbers = 9 * (4 * (size_t)blocks + m->entries + m->factors) + 12 * (size_t)blocks;
+    const size_t numbers = 9 * (4 * (size_t)blocks + m->entries + m->factors) + 15 * (size_t)blocks;
     const size_t bytes = numbers * sizeof(double) + m->factors * sizeof(uint32_t);
     if (!pl_buffer_reserve(memory, &step->numbers, bytes)) {
         return false;
@@ -117,6 +117,7 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     m->u = d, d += 3 * (size_t)blocks;
     m->tried = d, d += 3 * (size_t)blocks;
     m->slope = d, d += 3 * (size_t)blocks;
+    m->way = d, d += 3 * (size_t)blocks;
     m->row_of = (uint32_t *)(void *)d;
     return true;
 }

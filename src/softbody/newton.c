@@ -8,8 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUNDS   2  // of passes: friction of the second goes by the normal forces of the first
-#define SECTIONS 14 // of a way, by 0.618 each
+#define ROUNDS 2    // of passes: friction of the second goes by the normal forces of the first
+#define CHORDS 12   // of a way, at most
+#define NARROW 1e-3 // part of a way that is not worth another
+#define LEVEL  0.01 // of the slope that a way begins with: what it may end with
 #define CREEP                                                                                      \
     2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
 #define CREEP_LEAST 1e-5 // [m/s] likewise where nothing falls: less, and passes do not end
@@ -102,18 +104,19 @@ typedef struct inertia {
     double mass, free, damping, velocity;
 } inertia;
 
-static double add_inertia(const inertia *i, double u, double *diagonal, double *right, bool fills)
+static double add_inertia(const inertia *i, double u, double *diagonal, double *right,
+                          pl_soft_fill fill)
 {
     const double c = i->damping, share = 0.5 + 0.5 * c / (c + 4);
     const double rate = i->velocity + share * u, off = u - i->free;
-    if (fills) {
-        *diagonal += i->mass * (1 + share * c);
+    if (fill != PL_SOFT_VALUE) {
+        *diagonal += i->mass * (1 + share * c); // of no use where the matrix is not asked for
         *right -= i->mass * (off + c * rate);
     }
     return i->mass * (off * off + c * rate * rate / share) / 2;
 }
 
-static double add_masses(const plumb_world *world, double h, bool fills)
+static double add_masses(const plumb_world *world, double h, pl_soft_fill fill)
 {
     const pl_soft_step *s = world->softbodies.step;
     const pl_soft_matrix *m = &s->matrix;
@@ -127,8 +130,8 @@ static double add_masses(const plumb_world *world, double h, bool fills)
         double *at = m->diagonal + 9 * (size_t)p->block, *to = m->right + 3 * (size_t)p->block;
         const inertia x = { p->mass, gx, h * p->damping, p->vx - p->wind_x };
         const inertia y = { p->mass, gy, h * p->damping, p->vy - p->wind_y };
-        energy += add_inertia(&x, p->cx, at, to, fills);
-        energy += add_inertia(&y, p->cy, at + 4, to + 1, fills);
+        energy += add_inertia(&x, p->cx, at, to, fill);
+        energy += add_inertia(&y, p->cy, at + 4, to + 1, fill);
     }
     for (uint32_t i = 0; i < s->body_count; ++i) {
         const pl_soft_body *b = &bodies_of(s)[i];
@@ -141,30 +144,32 @@ static double add_masses(const plumb_world *world, double h, bool fills)
                                  { b->mass, h * b->ay, 0, 0 },
                                  { b->inertia, h * b->aw, 0, 0 } };
         for (int k = 0; k < 3; ++k) {
-            energy += add_inertia(&own[k], u[k], at + 4 * (size_t)k, to + k, fills);
+            energy += add_inertia(&own[k], u[k], at + 4 * (size_t)k, to + k, fill);
         }
     }
     return energy;
 }
 
-// The function that is to be least, where u is; with its slopes, if it fills.
-static double evaluate(plumb_world *world, double h, bool fills)
+// The function that is to be least, where u is.
+static double evaluate(plumb_world *world, double h, pl_soft_fill fill)
 {
     pl_soft_step *s = world->softbodies.step;
     pl_soft_change(s);
-    if (fills) {
+    if (fill == PL_SOFT_ALL) {
         pl_soft_clear(&s->matrix);
+    } else if (fill == PL_SOFT_SLOPES) {
+        memset(s->matrix.right, 0, 3 * (size_t)s->matrix.blocks * sizeof(double));
     }
-    const double masses = add_masses(world, h, fills) + pl_soft_add_pushes(s, h, fills);
-    return masses + pl_soft_elements(world, h, fills) + pl_soft_press(s, h, fills);
+    const double masses = add_masses(world, h, fill) + pl_soft_add_pushes(s, h, fill);
+    return masses + pl_soft_elements(world, h, fill) + pl_soft_press(s, h, fill);
 }
 
-// u = tried + part d, d the answer of the system.
+// u = tried + part way.
 static void try_part(const pl_soft_step *s, double part)
 {
     const pl_soft_matrix *m = &s->matrix;
     for (size_t i = 0; i < 3 * (size_t)m->blocks; ++i) {
-        m->u[i] = m->tried[i] + part * m->right[i];
+        m->u[i] = m->tried[i] + part * m->way[i];
     }
 }
 
@@ -177,34 +182,42 @@ static double product(const double *a, const double *b, size_t count)
     return sum;
 }
 
-static double at_part(plumb_world *world, double h, double part)
+// How the function grows at a part of the way; *value: itself.
+static double slope_at(plumb_world *world, double h, double part, double *value)
 {
+    const pl_soft_matrix *m = &world->softbodies.step->matrix;
     try_part(world->softbodies.step, part);
-    return evaluate(world, h, false);
+    *value = evaluate(world, h, PL_SOFT_SLOPES);
+    return -product(m->right, m->way, 3 * (size_t)m->blocks);
 }
 
-// The part of a way along which the function falls the most, by golden sections: it is convex but for what folds. Exact where
-// steps are halved (Armijo 1966), for what friction holds lies in a fold of the function: a way to halve ends before
-// or behind it, and the passes go to and fro over it.
+// The part of a way along which the function falls the most: it is convex but for what folds, and its slope passes 0 there. By chords,
+// of which an end that stays counts half (Dowell, Jarratt 1971). Near enough to exact where steps are halved (Armijo 1966), for
+// what friction holds lies in a fold of the function: a way to halve ends before or behind it, and the passes go to and fro over it.
 static double best_part(plumb_world *world, double h, double before, double gain)
 {
-    const double share = 0.6180339887498949;
-    double whole = at_part(world, h, 1);
-    if (whole <= before - ENOUGH_OF_IT * gain) {
+    double value, high = 1, at_high = slope_at(world, h, 1, &value), low = 0, at_low = -gain;
+    if (value <= before - ENOUGH_OF_IT * gain || at_high <= 0) {
         return 1;
     }
-    double low = 0, high = 1, a = 1 - share, b = share;
-    double at_a = at_part(world, h, a), at_b = at_part(world, h, b);
-    for (int i = 0; i < SECTIONS; ++i) {
-        if (at_a < at_b) {
-            high = b, b = a, at_b = at_a;
-            a = high - share * (high - low), at_a = at_part(world, h, a);
+    double part = 1;
+    for (int i = 0, kept = 0; i < CHORDS && high - low > NARROW; ++i) {
+        part = low - at_low * (high - low) / (at_high - at_low);
+        const double at = slope_at(world, h, part, &value);
+        if (fabs(at) < LEVEL * gain) {
+            break;
+        }
+        if (at < 0) {
+            low = part, at_low = at;
+            at_high *= kept < 0 ? 0.5 : 1;
+            kept = -1;
         } else {
-            low = a, a = b, at_a = at_b;
-            b = low + share * (high - low), at_b = at_part(world, h, b);
+            high = part, at_high = at;
+            at_low *= kept > 0 ? 0.5 : 1;
+            kept = 1;
         }
     }
-    return at_a < at_b ? a : b;
+    return part;
 }
 
 // A pass of Newton's iteration. Twice what is to be gained by it: no number where there is none.
@@ -213,12 +226,13 @@ static double pass(plumb_world *world, double h, double enough)
     pl_soft_step *s = world->softbodies.step;
     pl_soft_matrix *m = &s->matrix;
     const size_t count = 3 * (size_t)m->blocks, bytes = count * sizeof(double);
-    const double before = evaluate(world, h, true);
+    const double before = evaluate(world, h, PL_SOFT_ALL);
     memcpy(m->tried, m->u, bytes);
     memcpy(m->slope, m->right, bytes);
     pl_soft_factor(m);
     pl_soft_solve(m);
-    const double gain = product(m->slope, m->right, count);
+    memcpy(m->way, m->right, bytes);
+    const double gain = product(m->slope, m->way, count);
     const bool goes_on = gain > enough && gain < 1e300;
     try_part(s, goes_on ? best_part(world, h, before, gain) : 1);
     return gain;
@@ -287,7 +301,7 @@ void pl_soft_newton(plumb_world *world, double h, int passes)
             ++s->pass;
         }
         settled = gain <= moved_mass(s) * (told * told + 1e-12);
-        evaluate(world, h, false);
+        evaluate(world, h, PL_SOFT_VALUE);
         if (!settled) {
             break;
         }

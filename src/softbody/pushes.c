@@ -115,17 +115,19 @@ void pl_soft_turn_pushes(plumb_world *world, double h)
     }
 }
 
-double pl_soft_add_pushes(const pl_soft_step *s, double h, bool fills)
+double pl_soft_add_pushes(const pl_soft_step *s, double h, pl_soft_fill fill)
 {
     double energy = 0;
     for (uint32_t i = 0; i < s->point_count && s->pushed; ++i) {
         const pl_soft_point *p = pl_soft_point_at(s, i);
         const double m = p->carried, x = h * p->push_x, y = h * p->push_y;
         energy += m * (p->cx * p->cx + p->cy * p->cy) / 2 - (x * p->cx + y * p->cy);
-        if (fills && (m > 0 || x != 0 || y != 0)) {
+        if (fill != PL_SOFT_VALUE && (m > 0 || x != 0 || y != 0)) {
             const double own[4] = { m, 0, 0, m };
             pl_soft_push(s, i, x - m * p->cx, y - m * p->cy);
-            pl_soft_add(s, i, i, own);
+            if (fill == PL_SOFT_ALL) {
+                pl_soft_add(s, i, i, own);
+            }
         }
     }
     return energy;

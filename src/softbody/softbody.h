@@ -7,6 +7,9 @@
 #define PL_SOFT_SPEED 1e6  // [m/s] of nodes at most
 #define PL_SOFT_LATE  0.75 // of u, in the rate that a damper sees
 
+// What is asked of the function that is to be least: its value; its slopes as well, into `right`; the matrix too.
+typedef enum pl_soft_fill { PL_SOFT_VALUE, PL_SOFT_SLOPES, PL_SOFT_ALL } pl_soft_fill;
+
 void pl_softbodies_free(pl_memory *memory, pl_softbodies *softbodies);
 // Of an image: numbers in their ranges, nodes that there are. Bodies of pins are asked for elsewhere.
 bool pl_softbodies_are_sound(const pl_softbodies *s);
@@ -59,7 +62,7 @@ void pl_soft_drop_pushes(plumb_world *world);
 // They go with the soft bodies as these turn: a substep begins.
 void pl_soft_turn_pushes(plumb_world *world, double h);
 // As pl_soft_elements.
-double pl_soft_add_pushes(const pl_soft_step *s, double h, bool fills);
+double pl_soft_add_pushes(const pl_soft_step *s, double h, pl_soft_fill fill);
 
 //---- newton.c ------------------------------------------------------------------------------------
 
@@ -102,9 +105,9 @@ void pl_soft_settle_edges(plumb_world *world);
 
 //---- elements.c ----------------------------------------------------------------------------------
 
-// The function that is to be least, of all elements, at the velocities that u adds [kg m^2/s^2]. Where it `fills`, their
-// impulses are added to `right` [N s] and their stiffness to the matrix.
-double pl_soft_elements(plumb_world *world, double h, bool fills);
+// The function that is to be least, of all elements, at the velocities that u adds [kg m^2/s^2]. As `fill` says their
+// impulses are added to `right` [N s], their stiffness to the matrix.
+double pl_soft_elements(plumb_world *world, double h, pl_soft_fill fill);
 // [J] in all elements; [m^2], [N/m] of the gas of one.
 double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at);
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at);
@@ -151,7 +154,7 @@ bool pl_soft_meets(const plumb_world *world, uint32_t piece, const pl_softbody *
 // Contacts of a substep.
 void pl_soft_find_contacts(plumb_world *world, double h);
 // As pl_soft_elements. What holds by friction goes by the normal forces that bound it: pl_soft_bind, and the first passes.
-double pl_soft_press(pl_soft_step *s, double h, bool fills);
+double pl_soft_press(pl_soft_step *s, double h, pl_soft_fill fill);
 // Bounds friction by the normal forces of now. Whether that changed the bounds by much.
 bool pl_soft_bind(pl_soft_step *s);
 

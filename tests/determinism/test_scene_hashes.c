@@ -4,6 +4,8 @@
 // hashes.txt has a line a scene and solver: precision, solver, file, steps, plumb_world_hash. With the
 // argument --print the program writes such lines for its precision instead (`make hashes`), with
 // --table what `make determinism` compares.
+#include "scene_steps.h"
+
 #include "plumb/plumb.h"
 #include "harness/main.h"
 #include "scene/scene.h"
@@ -20,9 +22,7 @@
 #define HASHES "tests/determinism/hashes.txt"
 #define SCENES "assets/scenes/*.lua"
 
-#define LARGE         1000 // bodies
 #define STEPS         120
-#define STEPS_LARGE   20
 #define SCENES_LEAST  10
 #define SPEEDS_TESTED 4 // of `speeds`; make determinism runs all
 
@@ -62,10 +62,7 @@ static outcome run(const char *path, const char *solver, speed at, int steps)
         exit(1);
     }
     plumb_world *world = scene_world(s);
-    uint32_t bodies = plumb_world_stats(world).body_count;
-    outcome out = { .steps = steps > 0        ? steps
-                             : bodies > LARGE ? STEPS_LARGE
-                                              : STEPS,
+    outcome out = { .steps = steps > 0 ? steps : scene_steps(world, STEPS),
                     .width = plumb_world_settings(world).simd_width };
     for (int i = 0; i < out.steps; ++i) {
         if (scene_step(s, &error) != SCENE_OK) {

@@ -1,5 +1,7 @@
 // test_scene_record.c - every shipped scene, recorded with its handlers running: the replay gives the same
 // bits at every step, forwards, after seeking, backwards, at every SIMD width and with threads.
+#include "scene_steps.h"
+
 #include "harness/random.h"
 #include "harness/recording.h"
 #include "scene/scene.h"
@@ -8,10 +10,9 @@
 #include <malloc.h>
 #include <stdio.h>
 
-#define STEPS       240
-#define STEPS_LARGE 24
-#define LARGE       1000 // bodies
-#define SEEKS       12
+#define STEPS     240
+#define SEEKS     12
+#define KEYFRAMES 8
 
 typedef struct run {
     recording bytes;
@@ -20,7 +21,8 @@ typedef struct run {
     uint64_t hashes[STEPS + 1];
 } run;
 
-static void record(const char *path, int keyframe_every, run *out)
+// So many keyframes, beside the first; 0: as many as there are by default.
+static void record(const char *path, int keyframes, run *out)
 {
     scene *s = NULL;
     scene_error error;
@@ -29,10 +31,10 @@ static void record(const char *path, int keyframe_every, run *out)
     }
     assert_non_null(s);
     plumb_world *world = scene_world(s);
-    out->steps = plumb_world_stats(world).body_count > LARGE ? STEPS_LARGE : STEPS;
+    out->steps = scene_steps(world, STEPS);
     const plumb_recorder_desc desc = { .write = to_recording,
                                        .context = &out->bytes,
-                                       .keyframe_every = keyframe_every,
+                                       .keyframe_every = keyframes > 0 ? out->steps / keyframes : 0,
                                        .title = path };
     assert_int_equal(plumb_recorder_start(world, &desc), PLUMB_OK);
     out->hashes[0] = plumb_world_hash(world);
@@ -114,7 +116,7 @@ static void seek_about(const run *r)
     plumb_replay_close(replay);
 }
 
-static void for_all(void (*check)(const char *path, const run *r), int keyframe_every)
+static void for_all(void (*check)(const char *path, const run *r), int keyframes)
 {
     static run r;
     glob_t found;
@@ -122,7 +124,7 @@ static void for_all(void (*check)(const char *path, const run *r), int keyframe_
     assert_in_range(found.gl_pathc, 10, 1000);
     for (size_t i = 0; i < found.gl_pathc; ++i) {
         r = (run){ .steps = 0 };
-        record(found.gl_pathv[i], keyframe_every, &r);
+        record(found.gl_pathv[i], keyframes, &r);
         check(found.gl_pathv[i], &r);
         recording_free(&r.bytes);
     }
@@ -153,7 +155,7 @@ static void replays_give_the_same_bits(void **state)
 static void seeking_gives_the_same_bits(void **state)
 {
     (void)state;
-    for_all(check_seeks, 25);
+    for_all(check_seeks, KEYFRAMES);
 }
 
 // The same scene recorded twice: the same bytes, pointers and all.
@@ -163,7 +165,7 @@ static void check_again(const char *path, const run *r)
     again = (run){ .steps = 0 };
     char *elsewhere = malloc(12345); // so that addresses are others
     mallopt(M_PERTURB, 0x5a);        // and so is what nobody has written
-    record(path, 25, &again);
+    record(path, KEYFRAMES, &again);
     mallopt(M_PERTURB, 0);
     if (again.bytes.size != r->bytes.size ||
         memcmp(again.bytes.bytes, r->bytes.bytes, r->bytes.size) != 0) {
@@ -178,7 +180,7 @@ static void check_again(const char *path, const run *r)
 static void the_same_run_gives_the_same_recording(void **state)
 {
     (void)state;
-    for_all(check_again, 25);
+    for_all(check_again, KEYFRAMES);
 }
 
 int main(void)

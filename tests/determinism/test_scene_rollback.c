@@ -1,14 +1,14 @@
 // test_scene_rollback.c - every shipped scene, with both solvers: random rollbacks of 1 to 12 steps
 // change nothing. The scenes' handlers do not run here, the worlds do.
 #include "rollback.h"
+#include "scene_steps.h"
+
 #include "scene/scene.h"
 
 #include <glob.h>
 #include <stdio.h>
 
-#define STEPS       150
-#define STEPS_LARGE 24
-#define LARGE       1000 // bodies
+#define STEPS 150
 
 static scene *load(const char *path, const char *solver)
 {
@@ -34,8 +34,7 @@ static void roll_scene(const char *path, const char *solver, bool frames)
     static uint64_t hashes[STEPS + 1];
     scene *first = load(path, solver), *second = load(path, solver);
     plumb_real dt = (plumb_real)scene_get_info(first).dt;
-    uint32_t bodies = plumb_world_stats(scene_world(first)).body_count;
-    int steps = bodies > LARGE ? STEPS_LARGE : STEPS;
+    int steps = scene_steps(scene_world(first), STEPS);
     rollback_reference(scene_world(first), step, &dt, steps, hashes);
     int times = rollback_run(scene_world(second), NULL, step, &dt, steps, 12, frames, hashes);
     assert_in_range(times, 1, steps);

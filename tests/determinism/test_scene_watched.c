@@ -1,5 +1,7 @@
 // test_scene_watched.c - in every shipped scene each row of the step writes only what it declares, and neither watching that
 // nor the watchdog changes a bit.
+#include "scene_steps.h"
+
 #include "step/pass.h"
 #include "step/data.h"
 #include "plumb/plumb.h"
@@ -17,9 +19,7 @@
 
 #define SCENES       "assets/scenes/*.lua"
 #define SCENES_LEAST 10
-#define LARGE        300 // bodies
 #define STEPS        40
-#define STEPS_LARGE  3
 
 static uint64_t run(const char *path, const char *solver, unsigned watched, bool dog,
                     uint32_t *breaches)
@@ -34,7 +34,7 @@ static uint64_t run(const char *path, const char *solver, unsigned watched, bool
     plumb_world *world = scene_world(s);
     assert_int_equal(plumb_world_watch(world, watched), PLUMB_OK);
     assert_int_equal(plumb_world_set_watchdog(world, dog), PLUMB_OK);
-    const int steps = plumb_world_stats(world).body_count > LARGE ? STEPS_LARGE : STEPS;
+    const int steps = scene_steps(world, STEPS);
     uint32_t seen = 0;
     for (int i = 0; i < steps; ++i) {
         assert_int_equal(scene_step(s, &error), SCENE_OK);

@@ -110,7 +110,7 @@ typedef struct pl_soft_matrix {
     uint8_t *size;           // unknowns of a block
     double *diagonal, *off;  // 9 a block
     double *pivot, *split, *l, *work;
-    double *right, *u, *tried, *slope; // 3 a block
+    double *right, *u, *tried, *slope, *way; // 3 a block
 } pl_soft_matrix;
 
 typedef struct pl_soft_step {

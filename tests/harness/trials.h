@@ -1,0 +1,57 @@
+/// trials.h - which random cases a generated test tries. All of `make test` takes minutes so; before an issue closes:
+///
+///     make test TRIALS=10                                  ten times as many of each (any factor above 0)
+///     FIRST=137 COUNT=1 build/tests/determinism/test_mixed  one of them
+#ifndef HARNESS_TRIALS_H
+#define HARNESS_TRIALS_H
+
+#include "plumb/base.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/// Case numbers first .. end - 1.
+typedef struct trials {
+    uint32_t first, end;
+} trials;
+
+/// A number that the environment gives; what is no such number ends the program.
+static inline double trials_asked(const char *name, double otherwise)
+{
+    const char *text = getenv(name);
+    if (text == NULL || *text == '\0') {
+        return otherwise;
+    }
+    char *end;
+    const double value = strtod(text, &end);
+    if (*end != '\0' || !(value >= 0) || value > 1e9) {
+        fprintf(stderr, "%s is '%s'; it must be a number from 0 to 1e9\n", name, text);
+        exit(2);
+    }
+    return value;
+}
+
+/// How many, for tests that draw all cases from one stream of random numbers.
+static inline uint32_t trials_count(uint32_t usual)
+{
+    const double count = trials_asked("COUNT", usual * trials_asked("TRIALS", 1));
+    return count < 1 ? 1 : (uint32_t)count;
+}
+
+static inline trials trials_from(uint32_t first, uint32_t usual)
+{
+    const uint32_t from = (uint32_t)trials_asked("FIRST", first);
+    return (trials){ from, from + trials_count(usual) };
+}
+
+/// Of a list of cases that take long one in `every`: others in float, in double and in the far build, so that with 3 each is
+/// taken by one of them. With TRIALS=`every` all are.
+static inline bool trials_takes(uint32_t number, uint32_t every)
+{
+    const uint32_t turn = PLUMB_IS_FAR ? 2 : sizeof(plumb_real) > sizeof(float) ? 1 : 0;
+    return (number + turn) % every < trials_asked("TRIALS", 1);
+}
+
+#endif
