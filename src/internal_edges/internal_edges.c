@@ -209,6 +209,7 @@ bool pl_internal_edges_update(plumb_world *world)
             kept[i].tangent[k] = pair->tangent[k];
         }
         kept[i].rolling = pair->rolling;
+        kept[i].borne = pair->flags & PL_PAIR_BORNE;
         kept[i].manifold = pair->manifold != PL_NONE ? 0 : PL_NONE; // of a step that is over
         kept[i].a = pair->a;
         kept[i].b = pair->b;
@@ -225,6 +226,7 @@ static void give_back(pl_pair *pair, const pl_edge_pair *kept)
         pair->tangent[k] = kept->tangent[k];
     }
     pair->rolling = kept->rolling;
+    pair->flags = (pair->flags & ~(PL_PAIR_BORNE | PL_PAIR_COVERED)) | kept->borne;
     pair->manifold =
         kept->manifold; // pairs that part forget the above, those that are apart do not
 }

@@ -54,6 +54,7 @@ typedef struct pl_edge_pair {
     near_real rolling;
     uint32_t a, b;     // its pieces
     uint32_t manifold; // PL_NONE: it was apart
+    uint32_t borne;    // PL_PAIR_BORNE if it was
 } pl_edge_pair;
 
 // What the owner of a run of flush faces bore in the last step, by the mover's piece (run.c).
