@@ -132,7 +132,7 @@ help:
 #:   deps, deps-dev    Debian packages: for the two commands above; for fuzz, format, lint as well
 #:   deps-ci           those of deps, and what checks the formatting
 #:   lib               the libraries alone: PRECISION=float (double, far; all without)
-#:   test              every test; T="tests/unit/test_math.c ..." runs only these
+#:   test              every test; T="tests/unit/test_math.c ..." runs only these; TRIALS=10: ten times the random cases
 #:   stability         the hard-case tests, the expectations of every scene; hard scenes beside Box2D 2.4.1, Chipmunk (BOX2D3=)
 #:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
 #:   soak              a busy world for 10^6 steps, twice at once: flat memory, the same bits; SOAK="1000000 seed"

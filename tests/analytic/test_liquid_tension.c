@@ -11,6 +11,7 @@
 #include "harness/near.h"
 #include "harness/sim.h"
 #include "harness/tank.h"
+#include "harness/trials.h"
 
 #define HZ60    (1 / 60.0)
 #define DENSITY 1000.0
@@ -85,6 +86,9 @@ static void drops_rest(void **state)
         { 1, 0.05, 0.017, 0.043, 20000, 60, 0.015 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        if (!trials_takes((uint32_t)i, 3)) {
+            continue;
+        }
         plumb_world *w = make_space(cases[i].spacing, cases[i].tension);
         add_drop(w, cases[i].x, cases[i].y, cases[i].radius, 2, 0);
         sim_run(w, (int)(30 * cases[i].hz), 1 / cases[i].hz);
@@ -148,6 +152,9 @@ static void drops_swing_as_rayleigh_says(void **state)
     (void)state;
     const double most[] = { 0.03, 0.05, 0.09 };
     for (int mode = 2; mode <= 4; ++mode) {
+        if (!trials_takes((uint32_t)mode, 3)) {
+            continue;
+        }
         const double coarse = drop_period(0.05, mode), fine = drop_period(0.025, mode);
         print_message("mode %d: period %.4f of theory with 20 cells across, %.4f with 40: order "
                       "%.1f\n",
@@ -202,6 +209,9 @@ static void pools_swing_by_tension_and_gravity(void **state)
     (void)state;
     const double gravity[] = { 0, 0.2, 0 }, tension[] = { 100, 100, 20 };
     for (int i = 0; i < 3; ++i) {
+        if (!trials_takes((uint32_t)i, 3)) {
+            continue;
+        }
         const double coarse = pool_period(0.05, gravity[i], tension[i]);
         const double fine = pool_period(0.025, gravity[i], tension[i]);
         print_message("waves of 2 m, %g m/s^2, %g N/m: period %.4f of theory with 20 cells a wave, "

@@ -11,6 +11,7 @@
 #include "harness/near.h"
 #include "harness/sim.h"
 #include "harness/tank.h"
+#include "harness/trials.h"
 
 #define HZ60 (1 / 60.0)
 
@@ -83,6 +84,9 @@ static void thick_liquid_carries(void **state)
     (void)state;
     const double viscosities[] = { 0, 20, 500 };
     for (int n = 0; n < 3; ++n) {
+        if (!trials_takes((uint32_t)n, 3)) {
+            continue;
+        }
         plumb_world *w = make_tank(4, 2, viscosities[n]);
         const plumb_body box = sim_body(w, PLUMB_DYNAMIC, 2, 2.5, 0);
         const plumb_shape_desc d = { .kind = PLUMB_BOX,

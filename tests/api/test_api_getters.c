@@ -4,6 +4,7 @@
 #include "world_fixture.h"
 
 #include "harness/random.h"
+#include "harness/trials.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -340,14 +341,12 @@ static void run_session(uint64_t seed)
     plumb_world_destroy(s.world);
 }
 
-// PLUMB_SESSIONS asks for more.
 static void answers_are_finite_whatever_a_session_is_made_of(void **state)
 {
     (void)state;
-    const char *asked = getenv("PLUMB_SESSIONS");
-    uint64_t count = asked != NULL ? strtoull(asked, NULL, 10) : 2000;
-    for (uint64_t seed = 1; seed <= count && broken_answers < 20; ++seed) {
-        run_session(seed * 7919);
+    const trials t = trials_from(1, 2000);
+    for (uint32_t seed = t.first; seed < t.end && broken_answers < 20; ++seed) {
+        run_session(seed * UINT64_C(7919));
     }
     assert_int_equal(broken_answers, 0);
 }

@@ -4,6 +4,8 @@
 
 #include "cli_fixture.h"
 
+#include "harness/trials.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -254,6 +256,9 @@ static void the_recommended_setting_is_as_good_as_told(void **state)
     (void)state;
     static const double tolerances[] = { 1e-1, 1e-3, 3e-5 };
     for (int i = 0; i < 9; i++) {
+        if (!trials_takes((uint32_t)(i / 3 + i % 3), 3)) {
+            continue;
+        }
         char line[512], words[256];
         double tolerance = tolerances[i / 3];
         write_text("best.lua", recommended[i % 3]);

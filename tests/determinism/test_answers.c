@@ -1,10 +1,9 @@
 // test_answers.c - no answer depends on history: a world that is restored from an image answers every question, draws
 // and steps as the one does that was saved, whatever has come, gone, slept or changed its type since grids were filed.
-//
-// SESSIONS asks for so many random sessions; FIRST for the number of the first.
 #include "session.h"
 
 #include "harness/random.h"
+#include "harness/trials.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -177,11 +176,9 @@ static const char *differs(uint32_t number, int *step)
 static void test_no_answer_depends_on_history(void **state)
 {
     (void)state;
-    const char *asked = getenv("SESSIONS"), *from = getenv("FIRST");
-    const uint32_t count = asked == NULL ? SESSIONS : (uint32_t)strtoul(asked, NULL, 10);
-    const uint32_t first = from == NULL ? 0 : (uint32_t)strtoul(from, NULL, 10);
+    const trials t = trials_from(0, SESSIONS);
     uint32_t failures = 0;
-    for (uint32_t i = first; i < first + count; ++i) {
+    for (uint32_t i = t.first; i < t.end; ++i) {
         int step;
         const char *wrong = differs(i, &step);
         if (wrong != NULL) {
@@ -189,7 +186,7 @@ static void test_no_answer_depends_on_history(void **state)
             ++failures;
         }
     }
-    print_message("%" PRIu32 " sessions, failures %" PRIu32 "\n", count, failures);
+    print_message("%" PRIu32 " sessions, failures %" PRIu32 "\n", t.end - t.first, failures);
     assert_int_equal(failures, 0);
 }
 

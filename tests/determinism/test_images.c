@@ -1,12 +1,11 @@
 // test_images.c - no saved byte depends on capacity, history or addresses: worlds with equal hashes have equal
 // images, byte for byte. Random sessions are taken twice, step for step, the second time in a world with other
 // capacities, threads or width, restored from its own image, exchanged for a new one, asked about in between, or watched.
-//
-// SESSIONS asks for so many sessions of each kind.
 #include "session.h"
 
 #include "harness/heap.h"
 #include "harness/random.h"
+#include "harness/trials.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -157,9 +156,8 @@ static void run(uint32_t seed, variation how)
 
 static void run_all(variation how)
 {
-    const char *asked = getenv("SESSIONS");
-    uint32_t count = asked == NULL ? SESSIONS : (uint32_t)strtoul(asked, NULL, 10);
-    for (uint32_t seed = 0; seed < count; ++seed) {
+    const trials t = trials_from(0, SESSIONS);
+    for (uint32_t seed = t.first; seed < t.end; ++seed) {
         run(seed, how);
     }
 }

@@ -15,6 +15,7 @@
 
 #include "harness/heap.h"
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 #define HZ60 (1 / 60.0)
 
@@ -444,8 +445,7 @@ static bool play(unsigned seed, disturbance how, uint64_t *hashes, bool compare,
     return same;
 }
 
-// SESSIONS=1000 [FIRST=1] plays more.
-enum { WORLDS = 40 };
+enum { WORLDS = 10 };
 
 // Worlds that a refused step once showed in. 17, double: a pair that will meet at some hundred m/s forgot its impulses
 // (narrow/settle.c); 137, float: a fast body passed through one that had fallen asleep in that step (continuous/search.c). And where what was told of contacts
@@ -458,19 +458,14 @@ enum { WORLDS = 40 };
 static const unsigned once[] = { 17, 137, 274, 32, 128, 139, 150, 63, 193 };
 #define ONCE (sizeof once / sizeof once[0])
 
-static unsigned asked(const char *name, unsigned otherwise)
-{
-    const char *text = getenv(name);
-    return text == NULL ? otherwise : (unsigned)strtoul(text, NULL, 10);
-}
-
 static void compare_with_undisturbed(disturbance how)
 {
     static uint64_t hashes[STEPS];
-    const unsigned count = asked("SESSIONS", WORLDS), first = asked("FIRST", 1);
+    const trials t = trials_from(1, WORLDS);
+    const unsigned count = t.end - t.first;
     long refused = 0, failures = 0;
     for (unsigned i = 0; i < ONCE + count; ++i) {
-        const unsigned seed = i < ONCE ? once[i] : first + i - (unsigned)ONCE;
+        const unsigned seed = i < ONCE ? once[i] : t.first + i - (unsigned)ONCE;
         play(seed, NONE, hashes, false, &refused);
         failures += !play(seed, how, hashes, true, &refused);
     }

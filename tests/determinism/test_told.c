@@ -1,17 +1,16 @@
 // test_told.c - random sessions, recorded: the replay tells the events of each step as the run did, every stream of them, and
 // whatever a session has come to, its image may be restored.
-//
-// SESSIONS asks for so many sessions; FIRST for the number of the first.
 #include "session_rest.h"
 
 #include "harness/random.h"
 #include "harness/recording.h"
+#include "harness/trials.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 30, SESSIONS = 10, SEEKS = 6 };
+enum { STEPS = 30, SESSIONS = 4, SEEKS = 6 };
 
 typedef enum stream {
     BEGINS,
@@ -265,12 +264,10 @@ static void replays_tell_what_runs_told(void **state)
 {
     (void)state;
     static run r;
-    const char *asked = getenv("SESSIONS"), *from = getenv("FIRST");
-    const uint32_t count = asked == NULL ? SESSIONS : (uint32_t)strtoul(asked, NULL, 10);
-    const uint32_t first = from == NULL ? 0 : (uint32_t)strtoul(from, NULL, 10);
+    const trials t = trials_from(0, SESSIONS);
     uint32_t failures = 0;
     uint64_t all[STREAMS] = { 0 };
-    for (uint32_t number = first; number < first + count; ++number) {
+    for (uint32_t number = t.first; number < t.end; ++number) {
         record(&r, number);
         if (!r.restored) {
             print_error("session %" PRIu32 ": an image is refused\n", number);

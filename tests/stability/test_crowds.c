@@ -1,10 +1,10 @@
 // test_crowds.c - crowds of all shapes, masses and joints in a box, at default settings: nothing gives them energy, so none rises;
-// nobody leaves the box or is lost. CROWDS=200: so many of each kind in place of 4.
+// nobody leaves the box or is lost.
 #include "harness/near.h"
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define MOST  60
 #define WIDE  8.0 // [m] half of the box
@@ -113,13 +113,12 @@ static void no_crowd_gains_energy(void **state)
     } masses[] = { { 1.01, 0.03 }, { 30, 0.1 } };
     static const int joints[] = { NONE,       PLUMB_REVOLUTE, PLUMB_PRISMATIC,
                                   PLUMB_WELD, PLUMB_WHEEL,    PLUMB_DISTANCE };
-    const char *said = getenv("CROWDS");
-    const uint64_t crowds = said != NULL ? strtoull(said, NULL, 10) : 4;
+    const trials t = trials_from(1, 4);
     for (size_t i = 0; i < sizeof masses / sizeof masses[0]; ++i) {
         for (size_t k = 0; k < sizeof joints / sizeof joints[0]; ++k) {
             double worst = 0;
-            for (uint64_t n = 1; n <= crowds; ++n) {
-                seed = (uint32_t)n * 7919;
+            for (uint32_t n = t.first; n < t.end; ++n) {
+                seed = n * 7919;
                 plumb_world *w = crowd(masses[i].spread, joints[k], n % 2 == 0 ? 0.9 : 0);
                 const double rise = rise_of(w);
                 worst = fmax(worst, rise);

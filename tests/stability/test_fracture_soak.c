@@ -1,12 +1,13 @@
 // test_fracture_soak.c - a box full of bodies that break, are cut, merge and tumble for long: mass stays, all stays finite and in the box,
-// nothing is thrown, memory stays flat, and twice the same bits. FRACTURE_STEPS=100000: so many steps in place of 1500.
+// nothing is thrown, memory stays flat, and twice the same bits.
 #include "harness/heap.h"
 #include "harness/near.h"
+#include "harness/trials.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
-#define R(x) ((plumb_real)(x))
+#define R(x)  ((plumb_real)(x))
+#define STEPS 1500
 
 static uint64_t seed;
 
@@ -161,11 +162,10 @@ static uint64_t soak(int steps, uint64_t first, bool tells)
 static void test_long_tumbling(void **state)
 {
     (void)state;
-    const char *said = getenv("FRACTURE_STEPS");
-    const int steps = said != NULL ? (int)strtol(said, NULL, 10) : 1500;
-    assert_true(soak(steps, 11, true) == soak(steps, 11, false));
-    for (uint64_t first = 12; first < 20; ++first) {
-        soak(1500, first, true);
+    assert_true(soak(STEPS, 11, true) == soak(STEPS, 11, false));
+    const trials t = trials_from(12, 2);
+    for (uint32_t first = t.first; first < t.end; ++first) {
+        soak(STEPS, first, true);
     }
 }
 

@@ -4,11 +4,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 #define HZ60 (1 / 60.0)
 
@@ -73,19 +73,14 @@ static double growth(tree *t)
     return most;
 }
 
-static unsigned asked(const char *name, unsigned otherwise)
-{
-    const char *text = getenv(name);
-    return text != NULL ? (unsigned)strtoul(text, NULL, 10) : otherwise;
-}
-
-// FIRST=7 TREES=1 plays one of them. `kind`: of all joints, or ANY.
+// `kind`: of all joints, or ANY.
 static void try_trees(bool stars, plumb_joint_kind kind)
 {
-    const unsigned first = asked("FIRST", 1), count = asked("TREES", 150);
+    const trials tried = trials_from(1, 150);
+    const unsigned count = tried.end - tried.first;
     int grew = 0;
     double worst = 0;
-    for (unsigned i = first; i < first + count; ++i) {
+    for (uint32_t i = tried.first; i < tried.end; ++i) {
         uint32_t seed = 7919 * i;
         const int substeps[] = { 4, 1, 2, 8, 16 };
         tree t = { .world = sim_world(&(plumb_world_desc){
@@ -173,10 +168,11 @@ static double excess_of_motors(uint32_t seed)
 static void motors_give_no_more_than_they_may(void **state)
 {
     (void)state;
-    const unsigned first = asked("FIRST", 1), count = asked("TREES", 300);
+    const trials tried = trials_from(1, 300);
+    const unsigned count = tried.end - tried.first;
     int over = 0;
     double worst = 0;
-    for (unsigned i = first; i < first + count; ++i) {
+    for (uint32_t i = tried.first; i < tried.end; ++i) {
         const double excess = excess_of_motors(104729 * i);
         over += !(excess < 1e-5);
         worst = fmax(worst, excess);

@@ -1,18 +1,16 @@
 // test_impact_events.c - every impact is told once, and nothing else is: begin, end and hit events, breaking joints
 // and sensors, judged by an observer who knows of velocities and poses alone (impact_throw.h).
-//
-// PLUMB_IMPACTS="100000 1" throws so many bodies, the first by this seed.
 #include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "harness/sim.h"
+#include "harness/trials.h"
 #include "impact_gap.h"
 #include "impact_throw.h"
 
@@ -28,14 +26,10 @@ static void tell(const char *line)
 static void every_impact_is_told_once(void **state)
 {
     (void)state;
-    unsigned count = 4000, first = 1;
-    const char *asked = getenv("PLUMB_IMPACTS");
-    if (asked != NULL && sscanf(asked, "%u %u", &count, &first) < 1) {
-        fail_msg("PLUMB_IMPACTS is '%s'; it must be a count, or count and first seed", asked);
-    }
+    const trials throws = trials_from(1, 4000);
     impact_tally t = { 0 };
-    for (unsigned i = 0; i < count; ++i) {
-        impact_throw(first + i, &t, tell);
+    for (uint32_t i = throws.first; i < throws.end; ++i) {
+        impact_throw(i, &t, tell);
     }
     print_message("%ld thrown, %ld touches, %ld hits: missed %ld, phantom %ld, doubled %ld, "
                   "lingering %ld, mute %ld, "

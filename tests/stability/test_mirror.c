@@ -1,16 +1,16 @@
 // test_mirror.c - what is thrown to the left does what is thrown to the right: bodies of all forms land on ground that is
 // level or slopes, beside their image in a mirror. Neither the order of corners nor a rounding may choose a side. Float,
-// double, far. PLUMB_MIRRORED=N throws N of each kind instead of some hundreds.
+// double, far.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 enum { STEPS = 60, MOST_POINTS = 5 };
 
@@ -148,8 +148,7 @@ static kind any_kind(uint32_t *s)
 static void mirrored_throws_stay_mirrored(void **state)
 {
     (void)state;
-    const char *told = getenv("PLUMB_MIRRORED");
-    const uint32_t count = told != NULL ? (uint32_t)strtoul(told, NULL, 10) : 400;
+    const uint32_t count = trials_count(400);
     for (int f = 0; f < FORMS; ++f) {
         uint32_t parted = 0;
         double most = 0;

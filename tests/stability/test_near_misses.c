@@ -1,6 +1,6 @@
 // test_near_misses.c - nothing pushes what does not touch it: bodies of all kinds fly by one another, clear by
 // millimetres to decimetres, at any angle and speed, and go on as if they were alone. All solvers; float,
-// double, far. PLUMB_MISSES=N takes N passes instead of a few thousand.
+// double, far.
 //
 // A pass is clear by construction: seen along the line of flight, the mover's outline (or, if it spins, the
 // circle that it sweeps) stays on one side of the target's. No sweep of the library is needed to know it.
@@ -9,11 +9,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 enum { MOST_POINTS = 12 };
 
@@ -284,8 +284,8 @@ static bool is_deflected(uint32_t *seed, int number)
 static void what_misses_is_not_touched(void **state)
 {
     (void)state;
-    const char *asked = getenv("PLUMB_MISSES");
-    int count = asked != NULL ? (int)strtol(asked, NULL, 10) : 5000, bad = 0;
+    const int count = (int)trials_count(5000);
+    int bad = 0;
     uint32_t seed = 20261;
     for (int i = 0; i < count; ++i) {
         bad += is_deflected(&seed, i);
@@ -366,8 +366,8 @@ static bool is_deflected_behind_a_wall(uint32_t *seed, int number)
 static void what_bounces_by_is_not_touched(void **state)
 {
     (void)state;
-    const char *asked = getenv("PLUMB_MISSES");
-    int count = asked != NULL ? (int)strtol(asked, NULL, 10) : 5000, bad = 0;
+    const int count = (int)trials_count(5000);
+    int bad = 0;
     uint32_t seed = 471;
     for (int i = 0; i < count; ++i) {
         bad += is_deflected_behind_a_wall(&seed, i);

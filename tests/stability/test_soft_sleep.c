@@ -1,6 +1,7 @@
 // test_soft_sleep.c - soft bodies fall asleep with what they hold and touch, lie still, wake by all that concerns them, and end
 // where they would have without sleep. Scenes and disturbances are drawn by a seed.
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -519,7 +520,8 @@ static void it_ends_where_it_would_without_sleep(void **state)
 {
     (void)state;
     double worst[KINDS] = { 0 };
-    for (uint32_t k = 0; k < 8 * KINDS; ++k) {
+    const trials t = trials_from(0, 2 * KINDS);
+    for (uint32_t k = t.first; k < t.end; ++k) {
         place p = make_place((kind)(k % KINDS), 1000 + k, false);
         place q = make_place((kind)(k % KINDS), 1000 + k, true);
         sim_run(p.w, 900, dt);

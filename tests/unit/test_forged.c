@@ -2,10 +2,12 @@
 // image is refused, or the world that it makes steps, answers and can be saved. What the fuzz harnesses look for by
 // chance, place by place, whatever the order of the sections is.
 //
-// PLACES asks for every so many-th place; 1: all of them, with each of the numbers.
+// TRIALS=9: all places.
 #include "fuzz/forge.h"
 
 #include "snapshot/section.h"
+
+#include "harness/trials.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +24,7 @@ enum { NUMBERS = (int)(sizeof numbers / sizeof *numbers) };
 #ifdef __SANITIZE_ADDRESS__
 enum { EVERY = 29 };
 #else
-enum { EVERY = 3 };
+enum { EVERY = 9 };
 #endif
 
 typedef struct forgery {
@@ -71,8 +73,7 @@ static void forge_section(forgery *f, pl_image_cursor at, uint32_t *turn, uint32
 static void test_every_number_is_checked(void **state)
 {
     (void)state;
-    const char *asked = getenv("PLACES");
-    const uint32_t every = asked == NULL ? EVERY : (uint32_t)strtoul(asked, NULL, 10);
+    const uint32_t more = trials_count(1), every = more < EVERY ? EVERY / more : 1;
     uint32_t turn = 0;
     for (int which = 0; which < WORLDS; ++which) {
         plumb_world *w = make_world(which, which == 1 ? 12 : 6);
