@@ -198,6 +198,26 @@ static void find_times(const cost_plan *plan, double *low, double *high)
     }
 }
 
+/// Where times are within a decade or so, a number at each power of ten would be one or none: at 1, 2 and 5 times them.
+static void put_ticks(FILE *file, double first, double last)
+{
+    static const int digits[] = { 1, 2, 5 };
+    if (last > 100 * first) {
+        fprintf(file, "set xtics autofreq\n");
+        return;
+    }
+    const char *glue = "set xtics (";
+    for (double power = pow(10, floor(log10(first))); power <= last; power *= 10) {
+        for (int i = 0; i < 3; i++) {
+            if (power * digits[i] >= first && power * digits[i] <= last) {
+                fprintf(file, "%s%g", glue, power * digits[i]);
+                glue = ", ";
+            }
+        }
+    }
+    fprintf(file, "%s\n", *glue == ',' ? ")" : "set xtics autofreq");
+}
+
 static void put_axes(FILE *file, const cost_plan *plan, int q, bool relative, double low,
                      double high)
 {
@@ -213,6 +233,7 @@ static void put_axes(FILE *file, const cost_plan *plan, int q, bool relative, do
             "set logscale xy\nset xrange [%g:%g]\nset yrange [%g:%g]\n"
             "set format y '10^{%%T}'\nset format x '%%g'\n",
             first, last, low, high);
+    put_ticks(file, first, last);
 }
 
 /// One panel: error over processor time.
@@ -301,20 +322,18 @@ static void put_times(FILE *file, const cost_plan *plan, int q, bool relative)
     }
     put_axes(file, plan, q, relative, 1, 10);
     fprintf(file,
-            "unset logscale x\nset format x '%%g'\nset xrange [0:%g]\nset yrange [*:*]\n"
+            "unset logscale x\nset xtics autofreq\nset format x '%%g'\n"
+            "set xrange [0:%g]\nset yrange [*:*]\n"
             "set xlabel 'simulated time [s]'\nset title '{/:Bold ",
             plan->time);
     put_text(file, plan->quantities[q].name);
     fprintf(file, "} over time, settings on the front'\nplot ");
     for (int i = 0; i < count; i++) {
-        char solver[32];
         const cost_setting *set = &chosen[i]->set;
-        (void)cli_member(plan->sides[set->side].solvers, set->solver, solver, sizeof solver);
         fprintf(file, "%s$t%d with linespoints pt 7 ps 0.5 lw 2 lc rgb '%s' title '",
                 i > 0 ? ", " : "", i, hues[i % HUES]);
-        put_text(file,
-                 plan->sides[set->side].engine != NULL ? plan->sides[set->side].name : solver);
-        fprintf(file, " 1/%.4g s x %d'", 1 / set->dt, set->substeps);
+        put_series_title(file, plan, (const int[]){ set->side, set->solver, set->precision });
+        fprintf(file, ", 1/%.4g s x %d'", 1 / set->dt, set->substeps);
     }
     fprintf(file, "\n");
 }
