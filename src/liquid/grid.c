@@ -225,7 +225,7 @@ void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
         &scratch->strays,  &scratch->occupied,   &scratch->viscous,     &scratch->blocks,
         &scratch->strips,  &scratch->vectors,    &scratch->sums,        &scratch->bodies,
         &scratch->links,   &scratch->solids,     &scratch->tile_solids, &scratch->phases,
-        &scratch->blends,  &scratch->mixed,      &scratch->rooms,       &scratch->inmates,
+        &scratch->blends,  &scratch->mixed,      &scratch->rooms,       &scratch->room_cells,
         &scratch->order,   &scratch->supports,   &scratch->joined,      &scratch->nodes,
         &scratch->rings,   &scratch->softbodies, &scratch->soft_links,  &scratch->sides,
         &scratch->touches, &scratch->tension

@@ -281,8 +281,8 @@ static void even_residual(pl_liquid_grid *g)
     const near_real *inverse = g->vectors[PL_LIQUID_I];
     near_real *r = g->vectors[PL_LIQUID_R], *z = g->vectors[PL_LIQUID_Z];
     pl_liquid_even_rooms(g, r);
-    for (uint32_t i = 0; i < g->inmate_count; ++i) {
-        const uint32_t row = g->inmates[i].row;
+    for (uint32_t i = 0; i < g->room_cell_count; ++i) {
+        const uint32_t row = g->room_cells[i].row;
         z[row] = inverse[row] * r[row];
     }
 }

@@ -189,14 +189,14 @@ static void find_leaks(const pl_liquid_grid *g, const finding *each, const findi
     }
 }
 
-static void list_inmates(pl_liquid_grid *g, const finding *each, const finding *joined)
+static void list_room_cells(pl_liquid_grid *g, const finding *each, const finding *joined)
 {
     const uint32_t behind = g->cell_count + g->body_count; // where the joined ones begin
     for (uint32_t c = 1; c < g->cell_count; ++c) {
         const uint32_t own = room_of(g, each, c), all = room_of(g, joined, c);
         if (own != 0 && (each->rooms[own].even || joined->rooms[all].even)) {
             const uint32_t room = each->rooms[own].even ? own : behind + all;
-            g->inmates[g->inmate_count++] = (pl_liquid_inmate){ g->row[c], room };
+            g->room_cells[g->room_cell_count++] = (pl_liquid_room_cell){ g->row[c], room };
         }
     }
 }
@@ -206,13 +206,13 @@ bool pl_liquid_balance_rooms(pl_memory *memory, pl_liquid_scratch *scratch)
     pl_liquid_grid *g = &scratch->grid;
     finding f[2];
     const size_t squeezes = g->body_count * sizeof(squeeze);
-    g->inmate_count = 0;
+    g->room_cell_count = 0;
     if (g->link_count == 0 && g->soft_link_count == 0) {
         return pl_liquid_balance(memory, scratch, false);
     }
     if (!make_place(memory, scratch, f) ||
-        !pl_buffer_reserve(memory, &scratch->inmates,
-                           squeezes + g->cell_count * sizeof(pl_liquid_inmate))) {
+        !pl_buffer_reserve(memory, &scratch->room_cells,
+                           squeezes + g->cell_count * sizeof(pl_liquid_room_cell))) {
         return false;
     }
     const finding *each = &f[0], *joined = &f[1];
@@ -221,24 +221,24 @@ bool pl_liquid_balance_rooms(pl_memory *memory, pl_liquid_scratch *scratch)
     sum_up(g, each);
     share_out(g, each, joined);
     take_out(g, each);
-    squeeze *of = scratch->inmates.data;
+    squeeze *of = scratch->room_cells.data;
     g->rooms = each->rooms;
-    g->inmates = (pl_liquid_inmate *)(void *)(of + g->body_count);
+    g->room_cells = (pl_liquid_room_cell *)(void *)(of + g->body_count);
     find_leaks(g, each, joined, of);
-    list_inmates(g, each, joined);
+    list_room_cells(g, each, joined);
     return true;
 }
 
 void pl_liquid_even_rooms(const pl_liquid_grid *g, near_real *vector)
 {
-    for (uint32_t i = 0; i < g->inmate_count; ++i) {
-        g->rooms[g->inmates[i].room].sum = 0;
+    for (uint32_t i = 0; i < g->room_cell_count; ++i) {
+        g->rooms[g->room_cells[i].room].sum = 0;
     }
-    for (uint32_t i = 0; i < g->inmate_count; ++i) {
-        g->rooms[g->inmates[i].room].sum += (double)vector[g->inmates[i].row];
+    for (uint32_t i = 0; i < g->room_cell_count; ++i) {
+        g->rooms[g->room_cells[i].room].sum += (double)vector[g->room_cells[i].row];
     }
-    for (uint32_t i = 0; i < g->inmate_count; ++i) {
-        const pl_liquid_room *room = &g->rooms[g->inmates[i].room];
-        vector[g->inmates[i].row] -= (near_real)(room->sum / room->count);
+    for (uint32_t i = 0; i < g->room_cell_count; ++i) {
+        const pl_liquid_room *room = &g->rooms[g->room_cells[i].room];
+        vector[g->room_cells[i].row] -= (near_real)(room->sum / room->count);
     }
 }

@@ -177,9 +177,9 @@ typedef struct pl_liquid_room {
 } pl_liquid_room;
 
 // A cell of such a room.
-typedef struct pl_liquid_inmate {
+typedef struct pl_liquid_room_cell {
     uint32_t row, room;
-} pl_liquid_inmate;
+} pl_liquid_room_cell;
 
 // A convex piece near the liquid, in cells from the origin of the world.
 typedef struct pl_liquid_solid {
@@ -233,8 +233,8 @@ typedef struct pl_liquid_grid {
     pl_liquid_link *links;
     pl_liquid_wrap *wraps;
     uint32_t wrap_count;
-    uint32_t inmate_count; // 0: no room is evened out
-    pl_liquid_inmate *inmates;
+    uint32_t room_cell_count; // 0: no room is evened out
+    pl_liquid_room_cell *room_cells;
     pl_liquid_room *rooms; // of the last that were found
     uint32_t node_count, ring_count, softbody_count, soft_link_count;
     pl_liquid_node *nodes; // of soft bodies, in their order, with the middles of rings behind
@@ -266,7 +266,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, inmates, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches;
 } pl_liquid_scratch;
 
 // Particles by the bins that they lie in, for questions (sample.c): made when the first one is asked after they moved.
