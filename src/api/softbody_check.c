@@ -202,7 +202,9 @@ bool pl_softbodies_are_sound(const pl_softbodies *s)
     for (uint32_t i = 0; i < s->count && sound; ++i) {
         const pl_softbody *item = &pl_softbody_items(s)[i];
         sound = is_item_sound(s, item, at);
-        at = pl_softbody_behind(at, item);
+        if (sound) { // its flags are 0 or 1
+            at = pl_softbody_behind(at, item);
+        }
     }
     return sound;
 }
