@@ -4,7 +4,7 @@
 // The test is (v - a) . n > 0 for the four face normals n: the boxes are apart when some face has
 // all corners of the other box in front. The face that separates most (or overlaps least) is the
 // reference face; in its frame, normal along +u and face along v, the nearest edge of the other box
-// is clipped to |v| <= half the face. Symbols: h half extents, q = (c, s) rotations, d centre of
+// is clipped to |v| <= half the face; where nothing of it is left, and the boxes are apart, their nearest corners serve. Symbols: h half extents, q = (c, s) rotations, d centre of
 // the incident box. Cost: about 250 flops a pair, W pairs at a time, no branches.
 #include "narrow/lanes.h"
 
@@ -94,27 +94,34 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     vf high = vmin(qv, f.hv);
     vf low_u = pu + slope * (low - pv);
     vf high_u = qu + slope * (high - qv);
-    // The edge passes beside the face: only an overlapping box still touches, with its deepest
-    // corner.
+    // The edge passes beside the face: an overlapping box touches with its deepest corner; of boxes that are apart the ends of edge
+    // and face are the nearest corners.
     vm beside = low > high;
-    vm p_deeper = pu < qu;
+    vm p_deeper = pu<qu, above = pv> f.hv;
+    vf end_u = sel(above, pu, qu), end_v = sel(above, pv, qv), face_v = sel(above, f.hv, -f.hv);
     low = sel(beside, sel(p_deeper, pv, qv), low);
     low_u = sel(beside, sel(p_deeper, pu, qu), low_u);
     vf sep0 = low_u - f.hu;
     vf sep1 = high_u - f.hu;
-    t->sep[0] = sel(beside & (sep0 > zero), splat(PL_APART), sep0);
+    vm corners = beside & (sep0 > zero);
+    vf wide_u = end_u - f.hu, wide_v = end_v - face_v;
+    vf distance = sel(corners, vsqrt(wide_u * wide_u + wide_v * wide_v), one);
+    vf nu_out = sel(corners, wide_u / distance, one),
+       nv_out = sel(corners, wide_v / distance, zero);
+    t->sep[0] = sel(corners, distance, sep0);
     t->sep[1] = sel(beside, splat(PL_APART), sep1);
 
     vf sign_ab = sel(f.flip, -one, one);
-    t->nx = sign_ab * f.c;
-    t->ny = sign_ab * f.s;
-    vf u0 = half * (low_u + f.hu);
+    t->nx = sign_ab * (f.c * nu_out - f.s * nv_out);
+    t->ny = sign_ab * (f.s * nu_out + f.c * nv_out);
+    vf u0 = sel(corners, half * (end_u + f.hu), half * (low_u + f.hu));
+    vf v0 = sel(corners, half * (end_v + face_v), low);
     vf u1 = half * (high_u + f.hu);
     // Back to world axes; the frame's origin is the reference box's centre.
     vf ox = sel(f.flip, l->dx, zero);
     vf oy = sel(f.flip, l->dy, zero);
-    t->px[0] = ox + f.c * u0 - f.s * low;
-    t->py[0] = oy + f.s * u0 + f.c * low;
+    t->px[0] = ox + f.c * u0 - f.s * v0;
+    t->py[0] = oy + f.s * u0 + f.c * v0;
     t->px[1] = ox + f.c * u1 - f.s * high;
     t->py[1] = oy + f.s * u1 + f.c * high;
     vm sixteen = (vm)splat(0) + 16;
@@ -122,6 +129,7 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     t->feature[0] = face;
     t->feature[1] = face + 1;
     t->turns = selm(f.flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
+    t->turns = selm(corners, (vm){ 0 } + PL_MET_TURNS_MID, t->turns);
 }
 
 DEFINE_KERNEL(box_box)

@@ -11,6 +11,7 @@
 
 #include "harness/near.h"
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 #define HZ60 (1 / 60.0)
 #define MOST 32
@@ -370,6 +371,55 @@ static void hexagons_stay_apart(void **state)
     assert_true(deep <= 32);
 }
 
+//---- boxes that do not turn ------------------------------------------------------------------------------
+
+// Until the first of them turns, every strike is one of bodies that fly straight: none lies in another at the end of a step.
+// Corners that met beside a face were no contact: 28 of 1000 lay deep in one another, by up to 0.2 m of 0.36.
+static void no_strike_of_boxes_is_missed(void **state)
+{
+    (void)state;
+    const trials t = trials_from(1, 2000);
+    double worst[2] = { 0, 0 }; // soft step, classic solver
+    for (uint32_t i = t.first; i < t.end; ++i) {
+        const bool classic = i % 4 == 0;
+        unsigned seed = 7919 * i;
+        plumb_world *w = sim_world(&(plumb_world_desc){
+            .zero_gravity = true, .solver = classic ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT });
+        const plumb_material m = sim_material(w, 0, (i % 2 + 1) / 2.0);
+        plumb_body body[2];
+        plumb_convex shape[2];
+        const double way = sim_uniform(&seed, -SIM_PI, SIM_PI), far = sim_uniform(&seed, 0.8, 2);
+        const double aside = sim_uniform(&seed, -0.4, 0.4), speed = sim_uniform(&seed, 2, 25);
+        for (int k = 0; k < 2; ++k) {
+            const double c = cos(way), s = sin(way), x = k * far, y = k * aside;
+            body[k] = sim_body(w, PLUMB_DYNAMIC, x * c - y * s, x * s + y * c,
+                               sim_uniform(&seed, -SIM_PI, SIM_PI));
+            const plumb_vec2 half =
+                sim_vec(sim_uniform(&seed, 0.05, 0.3), sim_uniform(&seed, 0.05, 0.3));
+            assert_int_equal(plumb_convex_box(half, sim_vec(0, 0), 0, 0, &shape[k]), PLUMB_OK);
+            sim_add_box(w, body[k], (double)half.x, (double)half.y, m);
+        }
+        sim_launch(w, body[1], -speed * cos(way), -speed * sin(way), 0);
+        while (sim_w(w, body[0]) == 0 && sim_w(w, body[1]) == 0 && sim_x(w, body[0]) < 5 &&
+               plumb_world_stats(w).step_count < 120) {
+            sim_step(w, HZ60);
+            if (sim_w(w, body[0]) == 0 && sim_w(w, body[1]) == 0) {
+                const plumb_convex_gap gap =
+                    plumb_convex_distance(&shape[0], plumb_body_transform(w, body[0]), &shape[1],
+                                          plumb_body_transform(w, body[1]));
+                worst[classic] = fmax(worst[classic], -(double)gap.distance);
+            }
+        }
+        plumb_world_destroy(w);
+    }
+    print_message(
+        "%u strikes of boxes: at most %.2g m deep before they turn, by the classic solver "
+        "%.2g m\n",
+        t.end - t.first, worst[0], worst[1]);
+    assert_true(worst[0] < 1e-3);
+    assert_true(worst[1] < 0.02); // open: 3 of 500 in float
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -377,6 +427,7 @@ int main(void)
         cmocka_unit_test(few_balls_fly_as_they_should),
         cmocka_unit_test(a_gas_stays_apart),
         cmocka_unit_test(hexagons_stay_apart),
+        cmocka_unit_test(no_strike_of_boxes_is_missed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
