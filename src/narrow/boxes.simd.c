@@ -95,7 +95,8 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     vf low_u = pu + slope * (low - pv);
     vf high_u = qu + slope * (high - qv);
     // The edge passes beside the face: an overlapping box touches with its deepest corner; of boxes that are apart the ends of edge
-    // and face are the nearest corners.
+    // and face are the nearest corners. These only lie ahead (narrow/ahead.c judges them by the flight): a plane between near
+    // corners would hold a brick out of a slot that it fits.
     vm beside = low > high;
     vm p_deeper = pu<qu, above = pv> f.hv;
     vf end_u = sel(above, pu, qu), end_v = sel(above, pv, qv), face_v = sel(above, f.hv, -f.hv);
@@ -108,7 +109,8 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     vf distance = sel(corners, vsqrt(wide_u * wide_u + wide_v * wide_v), one);
     vf nu_out = sel(corners, wide_u / distance, one),
        nv_out = sel(corners, wide_v / distance, zero);
-    t->sep[0] = sel(corners, distance, sep0);
+    t->sep[0] =
+        sel(corners, sel(distance > splat(PL_SPECULATIVE), distance, splat(PL_APART)), sep0);
     t->sep[1] = sel(beside, splat(PL_APART), sep1);
 
     vf sign_ab = sel(f.flip, -one, one);
