@@ -4,8 +4,9 @@
 // The test is (v - a) . n > 0 for the four face normals n: the boxes are apart when some face has
 // all corners of the other box in front. The face that separates most (or overlaps least) is the
 // reference face; in its frame, normal along +u and face along v, the nearest edge of the other box
-// is clipped to |v| <= half the face; where nothing of it is left, and the boxes are apart, their nearest corners serve. Symbols: h half extents, q = (c, s) rotations, d centre of
-// the incident box. Cost: about 250 flops a pair, W pairs at a time, no branches.
+// is clipped to |v| <= half the face; where nothing of it is left, and the boxes are apart, their
+// nearest corners serve. Symbols: h half extents, q = (c, s) rotations, d centre of the incident
+// box. Cost: about 270 flops a pair, W pairs at a time, no branches.
 #include "narrow/lanes.h"
 
 // The reference face changes side only for a gain of this much, so that it does not flicker. [m]
@@ -98,7 +99,8 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     // and face are the nearest corners. These only lie ahead (narrow/ahead.c judges them by the flight): a plane between near
     // corners would hold a brick out of a slot that it fits.
     vm beside = low > high;
-    vm p_deeper = pu<qu, above = pv> f.hv;
+    vm p_deeper = pu < qu;
+    vm above = pv > f.hv;
     vf end_u = sel(above, pu, qu), end_v = sel(above, pv, qv), face_v = sel(above, f.hv, -f.hv);
     low = sel(beside, sel(p_deeper, pv, qv), low);
     low_u = sel(beside, sel(p_deeper, pu, qu), low_u);
@@ -107,15 +109,15 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     vm corners = beside & (sep0 > zero);
     vf wide_u = end_u - f.hu, wide_v = end_v - face_v;
     vf distance = sel(corners, vsqrt(wide_u * wide_u + wide_v * wide_v), one);
-    vf nu_out = sel(corners, wide_u / distance, one),
-       nv_out = sel(corners, wide_v / distance, zero);
+    vf out_u = sel(corners, wide_u / distance, one); // the normal in the frame
+    vf out_v = sel(corners, wide_v / distance, zero);
     t->sep[0] =
         sel(corners, sel(distance > splat(PL_SPECULATIVE), distance, splat(PL_APART)), sep0);
     t->sep[1] = sel(beside, splat(PL_APART), sep1);
 
     vf sign_ab = sel(f.flip, -one, one);
-    t->nx = sign_ab * (f.c * nu_out - f.s * nv_out);
-    t->ny = sign_ab * (f.s * nu_out + f.c * nv_out);
+    t->nx = sign_ab * (f.c * out_u - f.s * out_v);
+    t->ny = sign_ab * (f.s * out_u + f.c * out_v);
     vf u0 = sel(corners, half * (end_u + f.hu), half * (low_u + f.hu));
     vf v0 = sel(corners, half * (end_v + face_v), low);
     vf u1 = half * (high_u + f.hu);
@@ -130,8 +132,8 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     vm face = f.code | (sixteen & by_x) | ((sixteen + sixteen) & (sign < zero));
     t->feature[0] = face;
     t->feature[1] = face + 1;
-    t->turns = selm(f.flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
-    t->turns = selm(corners, (vm){ 0 } + PL_MET_TURNS_MID, t->turns);
+    vm on_face = selm(f.flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
+    t->turns = selm(corners, (vm){ 0 } + PL_MET_TURNS_MID, on_face);
 }
 
 DEFINE_KERNEL(box_box)

@@ -357,13 +357,13 @@ static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, d
     const pl_soft_matrix *m = &s->matrix;
     const pl_soft_point *p = points_of(s) + c->point;
     const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
-    double *right = m->right + 3 * (size_t)p->block,
-           *at = m->right + 3 * (size_t)(b->block == PL_NONE ? 0 : b->block);
+    const bool moves = b->block != PL_NONE;
+    double *right = m->right + 3 * (size_t)p->block;
     for (int r = 0; r < 2; ++r) {
         right[r] += impulse * w->node[r];
     }
-    for (int r = 0; r < 3 && b->block != PL_NONE; ++r) {
-        at[r] += impulse * w->body[r];
+    for (int r = 0; r < 3 && moves; ++r) {
+        m->right[3 * (size_t)b->block + (size_t)r] += impulse * w->body[r];
     }
     if (fill != PL_SOFT_ALL) {
         return;
@@ -373,7 +373,7 @@ static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, d
         own[3 * r] += stiff * w->node[r] * w->node[0];
         own[3 * r + 1] += stiff * w->node[r] * w->node[1];
     }
-    if (b->block == PL_NONE) {
+    if (!moves) {
         return;
     }
     double *other = pl_soft_entry(m, b->block, p->block);

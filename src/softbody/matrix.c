@@ -122,11 +122,16 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     return true;
 }
 
+void pl_soft_clear_right(pl_soft_matrix *m)
+{
+    memset(m->right, 0, 3 * (size_t)m->blocks * sizeof(double));
+}
+
 void pl_soft_clear(pl_soft_matrix *m)
 {
     memset(m->diagonal, 0, 9 * (size_t)m->blocks * sizeof(double));
     memset(m->off, 0, 9 * (size_t)m->entries * sizeof(double));
-    memset(m->right, 0, 3 * (size_t)m->blocks * sizeof(double));
+    pl_soft_clear_right(m);
 }
 
 double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column)

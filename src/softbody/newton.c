@@ -109,8 +109,10 @@ static double add_inertia(const inertia *i, double u, double *diagonal, double *
 {
     const double c = i->damping, share = 0.5 + 0.5 * c / (c + 4);
     const double rate = i->velocity + share * u, off = u - i->free;
+    if (fill == PL_SOFT_ALL) {
+        *diagonal += i->mass * (1 + share * c);
+    }
     if (fill != PL_SOFT_VALUE) {
-        *diagonal += i->mass * (1 + share * c); // of no use where the matrix is not asked for
         *right -= i->mass * (off + c * rate);
     }
     return i->mass * (off * off + c * rate * rate / share) / 2;
@@ -158,7 +160,7 @@ static double evaluate(plumb_world *world, double h, pl_soft_fill fill)
     if (fill == PL_SOFT_ALL) {
         pl_soft_clear(&s->matrix);
     } else if (fill == PL_SOFT_SLOPES) {
-        memset(s->matrix.right, 0, 3 * (size_t)s->matrix.blocks * sizeof(double));
+        pl_soft_clear_right(&s->matrix);
     }
     const double masses = add_masses(world, h, fill) + pl_soft_add_pushes(s, h, fill);
     return masses + pl_soft_elements(world, h, fill) + pl_soft_press(s, h, fill);

@@ -76,6 +76,7 @@ void pl_soft_newton(plumb_world *world, double h, int passes); // [s]; at most s
 // memory.
 bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs);
 void pl_soft_clear(pl_soft_matrix *m);
+void pl_soft_clear_right(pl_soft_matrix *m); // its right side alone
 // Place of an entry, row > column; both are neighbours.
 double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column);
 // Factors the matrix; solves for `right`, into itself.

@@ -216,7 +216,8 @@ static void what_is_light_leaves_the_ground(void **state)
 {
     (void)state;
     uint32_t seed = 3;
-    for (int i = (int)trials_count(5); i-- > 0;) {
+    const int count = (int)trials_count(5);
+    for (int i = 0; i < count; ++i) {
         plumb_world *w = tank_make(3, 4, 0.05);
         const double ground = i % 3 == 0 ? 0 : sim_uniform(&seed, 0.01, 0.2);
         const double side = sim_uniform(&seed, 0.3, 0.6), x = sim_uniform(&seed, 1.2, 1.8);

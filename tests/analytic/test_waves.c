@@ -245,7 +245,8 @@ static void splashes_take_no_more_than_falls_give(void **state)
     (void)state;
     uint32_t seed = 7;
     double most = 0;
-    for (int i = (int)trials_count(20); i-- > 0;) {
+    const int count = (int)trials_count(20);
+    for (int i = 0; i < count; ++i) {
         const double density = pow(10, sim_uniform(&seed, 0, 2.95)),
                      r = pow(10, sim_uniform(&seed, -1.7, 0));
         const double h = 1 / sim_uniform(&seed, 25, 240), fall = sim_uniform(&seed, 0.5, 6);
