@@ -102,13 +102,16 @@ static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold 
     return FALSE_CONTACT;
 }
 
-// Faces that go on flat are joined (run.c).
-static void add_to_runs(plumb_world *world, uint32_t index, const pl_pair *pair,
+// Faces that go on flat are joined (run.c). False when out of memory.
+static bool add_to_runs(plumb_world *world, uint32_t index, const pl_pair *pair,
                         const pl_manifold *m, prospect *o, double dt)
 {
     const uint32_t *bits = world->pieces.internal_corners;
     if (world->internal_edges.apart || ((bits[pair->a] | bits[pair->b]) & PL_EDGE_FLAT) == 0) {
-        return;
+        return true;
+    }
+    if (!pl_runs_make_room(world)) {
+        return false;
     }
     // Ground is the piece that does not move freely, if either may be it.
     const int first = pair->body_a >= world->dynamic_count ? 0 : 1;
@@ -117,9 +120,10 @@ static void add_to_runs(plumb_world *world, uint32_t index, const pl_pair *pair,
         if ((bits[i == 0 ? pair->a : pair->b] & PL_EDGE_FLAT) != 0 &&
             !find_edge(world, pair, m, i).outer &&
             pl_runs_add(world, index, view_of(o, world, pair, m, i, dt))) {
-            return;
+            break;
         }
     }
+    return true;
 }
 
 // Impulses follow their features, as in narrow/lanes.h. A contact of one point keeps its own whichever
@@ -199,6 +203,17 @@ void pl_internal_edges_follow(plumb_world *world, const uint32_t *places, uint32
     pl_runs_follow(world, places);
 }
 
+#define SOON 6 // pairs ahead whose manifold is fetched: manifolds do not lie in the order of pairs
+
+static void fetch_manifold(const plumb_world *world, const pl_pair *pair)
+{
+    if (pair->manifold != PL_NONE) {
+        const pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+        __builtin_prefetch(m, 1);
+        __builtin_prefetch(&m->point[1], 1);
+    }
+}
+
 bool pl_internal_edges_correct(plumb_world *world, real dt)
 {
     pl_internal_edges *s = &world->internal_edges;
@@ -206,17 +221,14 @@ bool pl_internal_edges_correct(plumb_world *world, real dt)
     const pl_edge_pair *list = s->pairs.data;
     const bool parts = world->part_pieces > 0;
     bool changed = false;
-    uint32_t contacts = 0;
-    const uint32_t *bits = world->pieces.internal_corners;
-    for (uint32_t i = 0; i < s->pair_count; ++i) {
-        const pl_pair *pair = &pairs[list[i].pair];
-        contacts += pair->manifold != PL_NONE && ((bits[pair->a] | bits[pair->b]) & PL_EDGE_FLAT);
-    }
-    if (!pl_runs_open(world, contacts)) {
+    if (!pl_runs_open(world)) {
         return false;
     }
     for (uint32_t i = 0; i < s->pair_count; ++i) {
         pl_pair *pair = &pairs[list[i].pair];
+        if (i + SOON < s->pair_count) {
+            fetch_manifold(world, &pairs[list[i + SOON].pair]);
+        }
         pair->flags &= ~(PL_PAIR_BORNE | PL_PAIR_COVERED);
         if (pair->manifold == PL_NONE) {
             continue;
@@ -239,8 +251,9 @@ bool pl_internal_edges_correct(plumb_world *world, real dt)
             carry_over(&list[i], pair, m);
             m->met |= gap > PL_TOUCH_HOLD && nearest(m) <= PL_TOUCH_HOLD ? PL_MET_ASIDE : 0;
         }
-        if (v != FALSE_CONTACT && (pair->flags & PL_PAIR_AHEAD) == 0) {
-            add_to_runs(world, i, pair, m, &o, (double)dt);
+        if (v != FALSE_CONTACT && (pair->flags & PL_PAIR_AHEAD) == 0 &&
+            !add_to_runs(world, i, pair, m, &o, (double)dt)) {
+            return false;
         }
         changed |= v != RIGHT;
     }

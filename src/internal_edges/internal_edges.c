@@ -160,6 +160,19 @@ static bool refresh(plumb_world *world)
     return done;
 }
 
+// The kernels carry impulses over by features of their own; these are for contacts set right.
+static void note(pl_edge_pair *kept, const pl_pair *pair)
+{
+    for (int k = 0; k < 2; ++k) {
+        kept->feature[k] = pair->feature[k];
+        kept->normal[k] = pair->normal[k];
+        kept->tangent[k] = pair->tangent[k];
+    }
+    kept->rolling = pair->rolling;
+    kept->borne = pair->flags & PL_PAIR_BORNE;
+    kept->manifold = pair->manifold != PL_NONE ? 0 : PL_NONE; // of a step that is over
+}
+
 static bool list_pairs(plumb_world *world)
 {
     pl_internal_edges *s = &world->internal_edges;
@@ -180,6 +193,9 @@ static bool list_pairs(plumb_world *world)
         pl_edge_pair *made = (pl_edge_pair *)s->pairs.data + s->pair_count++;
         memset(made, 0, sizeof *made); // padding, too: images of equal worlds have equal bytes
         made->pair = i;
+        made->a = pairs[i].a;
+        made->b = pairs[i].b;
+        note(made, &pairs[i]);
     }
     if (s->pair_count == 0) {
         s->load_count = 0; // nobody is left to tell of
@@ -189,30 +205,30 @@ static bool list_pairs(plumb_world *world)
     return true;
 }
 
+static void note_pairs(plumb_world *world)
+{
+    const pl_internal_edges *s = &world->internal_edges;
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    pl_edge_pair *kept = s->pairs.data;
+    for (uint32_t i = 0; i < s->pair_count; ++i) {
+        const pl_pair *pair = &pairs[kept[i].pair];
+        // Else it is apart, as it was.
+        if (pair->manifold != PL_NONE || kept[i].manifold != PL_NONE) {
+            note(&kept[i], pair);
+        }
+    }
+}
+
 bool pl_internal_edges_update(plumb_world *world)
 {
     pl_internal_edges *s = &world->internal_edges;
     if (s->dirty && !refresh(world)) {
         return false;
     }
-    if ((s->relist || s->listed != world->broad.rebuilds) && !list_pairs(world)) {
+    if (!s->relist && s->listed == world->broad.rebuilds) {
+        note_pairs(world);
+    } else if (!list_pairs(world)) {
         return false;
-    }
-    // The kernels carry impulses over by features of their own; these are for contacts set right.
-    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    pl_edge_pair *kept = s->pairs.data;
-    for (uint32_t i = 0; i < s->pair_count; ++i) {
-        const pl_pair *pair = &pairs[kept[i].pair];
-        for (int k = 0; k < 2; ++k) {
-            kept[i].feature[k] = pair->feature[k];
-            kept[i].normal[k] = pair->normal[k];
-            kept[i].tangent[k] = pair->tangent[k];
-        }
-        kept[i].rolling = pair->rolling;
-        kept[i].borne = pair->flags & PL_PAIR_BORNE;
-        kept[i].manifold = pair->manifold != PL_NONE ? 0 : PL_NONE; // of a step that is over
-        kept[i].a = pair->a;
-        kept[i].b = pair->b;
     }
     s->noted = true;
     return true;

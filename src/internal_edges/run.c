@@ -82,11 +82,10 @@ static void swap_loads(pl_internal_edges *s)
     s->old_load_count = count;
 }
 
-bool pl_runs_open(plumb_world *world, uint32_t contacts)
+bool pl_runs_open(plumb_world *world)
 {
     pl_internal_edges *s = &world->internal_edges;
-    if (!pl_buffer_reserve(&world->memory, &s->contacts, contacts * sizeof(run_contact)) ||
-        !reserve_slots(world)) {
+    if (!reserve_slots(world)) {
         return false;
     }
     swap_loads(s);
@@ -97,6 +96,33 @@ bool pl_runs_open(plumb_world *world, uint32_t contacts)
     for (uint32_t i = 0; i < s->old_load_count; ++i) {
         old[i].next = slots[old[i].mover].load;
         slots[old[i].mover].load = i;
+    }
+    return true;
+}
+
+// Slots name nothing between steps.
+static void clear_slots(plumb_world *world)
+{
+    pl_internal_edges *s = &world->internal_edges;
+    const run_contact *contacts = s->contacts.data;
+    const pl_run_load *old = s->old_loads.data;
+    run_slot *slots = s->slots.data;
+    for (uint32_t i = 0; i < s->contact_count; ++i) {
+        slots[contacts[i].mover].contact = PL_NONE;
+    }
+    for (uint32_t i = 0; i < s->old_load_count; ++i) {
+        slots[old[i].mover].load = PL_NONE;
+    }
+}
+
+bool pl_runs_make_room(plumb_world *world)
+{
+    pl_internal_edges *s = &world->internal_edges;
+    const size_t size = ((size_t)s->contact_count + 1) * sizeof(run_contact);
+    if (!pl_buffer_reserve(&world->memory, &s->contacts, size)) {
+        clear_slots(world);
+        s->contact_count = 0;
+        return false;
     }
     return true;
 }
@@ -400,21 +426,6 @@ static void stand_back(plumb_world *world, const run_contact *r, const run_conta
     pl_manifolds(&world->narrow)[pair->manifold].bearer = list[owner->index].pair;
     pair->flags |= PL_PAIR_BORNE;
     pl_pair_forget(pair);
-}
-
-// Slots name nothing between steps.
-static void clear_slots(plumb_world *world)
-{
-    pl_internal_edges *s = &world->internal_edges;
-    const run_contact *contacts = s->contacts.data;
-    const pl_run_load *old = s->old_loads.data;
-    run_slot *slots = s->slots.data;
-    for (uint32_t i = 0; i < s->contact_count; ++i) {
-        slots[contacts[i].mover].contact = PL_NONE;
-    }
-    for (uint32_t i = 0; i < s->old_load_count; ++i) {
-        slots[old[i].mover].load = PL_NONE;
-    }
 }
 
 bool pl_runs_join(plumb_world *world, double dt)

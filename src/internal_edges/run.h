@@ -4,11 +4,12 @@
 
 #include "internal_edges/view.h"
 
-// Before the contacts of a step, of which there are at most `contacts`: none is in a run. False when out
-// of memory.
-bool pl_runs_open(plumb_world *world, uint32_t contacts);
-// Adds the contact of entry `index` of the list of pairs with internal edges, if the ground of this view has such a face there.
-// False: it has none.
+// Before the contacts of a step: none is in a run. False when out of memory.
+bool pl_runs_open(plumb_world *world);
+// Makes room for one more contact. False when out of memory: none is in a run.
+bool pl_runs_make_room(plumb_world *world);
+// Adds the contact of entry `index` of the list of pairs with internal edges, if the ground of this view has such a face there;
+// there is room for it. False: it has none.
 bool pl_runs_add(plumb_world *world, uint32_t index, pl_view *v);
 // Joins what was added into runs and gives each to one of its contacts. False when out of memory.
 bool pl_runs_join(plumb_world *world, double dt);
