@@ -210,7 +210,8 @@ static bool holds(const pl_pair *pair, const pl_manifold *m)
 static bool touches(const plumb_world *world, const pl_pair *pair, const pl_manifold *m)
 {
     const near_real near = (pair->flags & PL_PAIR_TOUCHING) != 0 ? PL_TOUCH_HOLD : 0;
-    return pl_is_near(m, near) || pl_has_met(pair, m) || (m->adhesion > 0 && holds(pair, m)) ||
+    // First what asks for no line of the manifold: most that touch have pushed.
+    return pl_has_met(pair, m) || pl_is_near(m, near) || (m->adhesion > 0 && holds(pair, m)) ||
            ((pair->flags & PL_PAIR_BORNE) != 0 && pl_internal_edges_borne_touches(world, m));
 }
 
