@@ -140,6 +140,14 @@ WIDE_INLINE vf inverse_or_zero(vf k)
     return sel(positive, splat(1) / sel(positive, k, splat(1)), splat(0));
 }
 
+// Lanes with a body that has a locked axis. What is reckoned otherwise for these is left to the others as it is, to the bit: who is
+// locked elsewhere is nobody's business.
+WIDE_INLINE vm locked_lanes(const special *s, const body *a, const body *b)
+{
+    return (s->aix != a->inv_mass) | (s->aiy != a->inv_mass) | (s->bix != b->inv_mass) |
+           (s->biy != b->inv_mass);
+}
+
 // Adds an impulse (px, py) to B and takes it from A; `s` null: no axis is locked.
 WIDE_INLINE void shove(body *a, body *b, const special *s, vf px, vf py)
 {

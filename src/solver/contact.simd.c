@@ -195,6 +195,21 @@ WIDE_INLINE void set_friction(vf total, const friction_row *r, const bundle *c, 
     p[0].lt = total - p[1].lt;
 }
 
+// What starts to slide rubs by `total` from now on. Setting the others to what they have would move them by a rounding.
+WIDE_INLINE void slip_off(bundle *c, const special *s, const friction_row *r, vm starts, vf total,
+                          body *a, body *b, bool rotation)
+{
+    const body a_was = *a, b_was = *b;
+    const vf was[2] = { c->p[0].lt, c->p[1].lt };
+    set_friction(total, r, c, s, c->p, a, b, rotation);
+    for (int j = 0; j < 2; ++j) {
+        c->p[j].lt = sel(starts, c->p[j].lt, was[j]);
+    }
+    a->vx = sel(starts, a->vx, a_was.vx), b->vx = sel(starts, b->vx, b_was.vx);
+    a->vy = sel(starts, a->vy, a_was.vy), b->vy = sel(starts, b->vy, b_was.vy);
+    a->w = sel(starts, a->w, a_was.w), b->w = sel(starts, b->w, b_was.w);
+}
+
 // What the contact bears from now on. It slides where its points do not hold; what slides since this sweep bears less at once.
 // What bears nothing will stick if it is slow.
 WIDE_INLINE void settle_grip(bundle *c, const special *s, const extra *e, const grip *g,
@@ -208,7 +223,7 @@ WIDE_INLINE void settle_grip(bundle *c, const special *s, const extra *e, const 
     c->friction = sel(slides, g->slides, g->sticks);
     if (any(starts)) {
         const vf most = c->friction * load;
-        set_friction(sel(starts, vclamp(total, -most, most), total), r, c, s, c->p, a, b, rotation);
+        slip_off(c, s, r, starts, vclamp(total, -most, most), a, b, rotation);
     }
 }
 

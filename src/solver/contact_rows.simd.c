@@ -138,10 +138,37 @@ void PL_WIDE_NAME(pl_contact_prepare_extras)(const pl_contact_call *call, uint32
     }
 }
 
+// Rows of the lanes with a body that has a locked axis.
+WIDE_PART void lock_rows(bundle *c, const special *s, const body *a, const body *b, vm locked,
+                         const pl_contact_call *call)
+{
+    const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
+    const vf nxx = c->nx * c->nx, nyy = c->ny * c->ny;
+    const vf mass_a = s->aix * nxx + s->aiy * nyy, mass_b = s->bix * nxx + s->biy * nyy;
+    const vf mass_n = mass_a + mass_b;
+    const vf mass_t = (s->aix + s->bix) * nyy + (s->aiy + s->biy) * nxx;
+    for (int j = 0; j < 2; ++j) {
+        point *p = &c->p[j];
+        const vf kn = mass_n + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn;
+        const vf mt = inverse_or_zero(mass_t + a->inv_inertia * p->rat * p->rat +
+                                      b->inv_inertia * p->rbt * p->rbt);
+        p->kn = sel(locked, kn, p->kn);
+        p->mt = sel(locked, mt, p->mt);
+    }
+    c->k01 = sel(locked, coupling(c, mass_n, a, b), c->k01);
+    const vm fixed = ((mass_a == splat(0)) & (a->inv_inertia == splat(0))) |
+                     ((mass_b == splat(0)) & (b->inv_inertia == splat(0)));
+    c->bias_rate = sel(locked, sel(fixed, ground.bias_rate, pair.bias_rate), c->bias_rate);
+    const vf give = sel(fixed, ground.give, pair.give);
+    for (int j = 0; j < 2; ++j) {
+        const vf own = c->p[j].kn * give * held_back(c, &c->p[j], call);
+        c->p[j].give = sel(locked, own, c->p[j].give);
+    }
+}
+
 void PL_WIDE_NAME(pl_contact_prepare_specials)(const pl_contact_call *call, uint32_t first,
                                                uint32_t count)
 {
-    const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
     bundle *bundles = call->bundles;
     special *specials = call->specials;
     for (uint32_t k = first; k < first + count; ++k) {
@@ -169,22 +196,9 @@ void PL_WIDE_NAME(pl_contact_prepare_specials)(const pl_contact_call *call, uint
                 s->pull[j][i] = m->adhesion * call->h / (near_real)m->count;
             }
         }
-        vf nxx = c->nx * c->nx, nyy = c->ny * c->ny;
-        vf mass_a = s->aix * nxx + s->aiy * nyy, mass_b = s->bix * nxx + s->biy * nyy;
-        vf mass_n = mass_a + mass_b, mass_t = (s->aix + s->bix) * nyy + (s->aiy + s->biy) * nxx;
-        for (int j = 0; j < 2; ++j) {
-            point *p = &c->p[j];
-            p->kn = mass_n + a.inv_inertia * p->ran * p->ran + b.inv_inertia * p->rbn * p->rbn;
-            p->mt = inverse_or_zero(mass_t + a.inv_inertia * p->rat * p->rat +
-                                    b.inv_inertia * p->rbt * p->rbt);
-        }
-        c->k01 = coupling(c, mass_n, &a, &b);
-        vm fixed = ((mass_a == splat(0)) & (a.inv_inertia == splat(0))) |
-                   ((mass_b == splat(0)) & (b.inv_inertia == splat(0)));
-        c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);
-        vf give = sel(fixed, ground.give, pair.give);
-        for (int j = 0; j < 2; ++j) {
-            c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
+        const vm locked = locked_lanes(s, &a, &b);
+        if (any(locked)) {
+            lock_rows(c, s, &a, &b, locked, call);
         }
     }
 }

@@ -266,8 +266,10 @@ WIDE_INLINE vec reach_of(const turning *t, int j, const body *a, const body *b, 
 // [1/kg] inverse masses of both along a normal (x, y); `s` null: no axis is locked.
 WIDE_INLINE vf mass_along(const special *s, const body *a, const body *b, vf x, vf y)
 {
-    return s != NULL ? (s->aix + s->bix) * x * x + (s->aiy + s->biy) * y * y
-                     : a->inv_mass + b->inv_mass;
+    const vf free = a->inv_mass + b->inv_mass;
+    return s != NULL ? sel(locked_lanes(s, a, b),
+                           (s->aix + s->bix) * x * x + (s->aiy + s->biy) * y * y, free)
+                     : free;
 }
 
 WIDE_INLINE void set_point(bundle *c, const special *s, int j, vm turns, const body *a,
