@@ -1,5 +1,5 @@
 // test_bystanders.c - what goes on elsewhere in a world is nobody's business: random heaps move as they do in a world
-// of their own, to the bit, whatever stands, bounces, flows or hangs 300 m away, whichever was made first.
+// of their own, to the bit, whatever stands, bounces, flows or hangs 300 m away, whenever it comes, and goes.
 //
 // The worlds are small enough for fine islands (plumb_world_desc.no_fine_islands), which go by the size of the world. Impacts of
 // the very same moment would be solved as one system; of random heaps there are none.
@@ -249,18 +249,44 @@ typedef struct poses {
     double x[MOST], y[MOST], angle[MOST], vx[MOST];
 } poses;
 
-static poses motion(uint32_t seed, uint32_t which, bool first, plumb_solver solver)
+// When bystanders come, and whether those that can go leave in the middle of it.
+typedef enum coming { FIRST, LAST, ON_THE_WAY, COMINGS } coming;
+
+static void remove_bystanders(plumb_world *w)
+{
+    plumb_body gone[256];
+    int count = 0;
+    const plumb_body_span span = plumb_world_bodies(w);
+    for (int i = 0; i < span.count; ++i) {
+        if (span.x[i] > (plumb_real)ELSEWHERE / 2 && count < 256) {
+            gone[count++] = span.body[i];
+        }
+    }
+    for (int i = 0; i < count; ++i) {
+        assert_int_equal(plumb_body_destroy(w, gone[i]), PLUMB_OK);
+    }
+}
+
+static poses motion(uint32_t seed, uint32_t which, coming when, bool leave, plumb_solver solver)
 {
     plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solver });
     plumb_body bodies[MOST];
-    if (first) {
+    if (which != 0 && when == FIRST) {
         place(w, which);
     }
     poses p = { .count = heap(w, seed, bodies) };
-    if (!first && which != 0) {
+    if (which != 0 && when == LAST) {
         place(w, which);
     }
-    sim_run(w, STEPS, 1.0 / 60);
+    for (int step = 0; step < STEPS; ++step) {
+        if (which != 0 && when == ON_THE_WAY && step == STEPS / 5) {
+            place(w, which);
+        }
+        if (leave && step == STEPS / 2) {
+            remove_bystanders(w);
+        }
+        sim_step(w, 1.0 / 60);
+    }
     for (int i = 0; i < p.count; ++i) {
         p.x[i] = sim_x(w, bodies[i]), p.y[i] = sim_y(w, bodies[i]);
         p.angle[i] = sim_angle(w, bodies[i]), p.vx[i] = sim_vx(w, bodies[i]);
@@ -275,8 +301,10 @@ static void moves_as_alone(uint32_t number, plumb_solver solver)
     const uint32_t seed = sim_random(&random);
     uint32_t which = sim_random(&random) & sim_random(&random) & ((1u << KINDS) - 1);
     which |= 1u << number % KINDS;
-    const poses alone = motion(seed, 0, false, solver);
-    const poses beside = motion(seed, which, number % 2 == 1, solver);
+    const coming when = (coming)(number % COMINGS);
+    const bool leave = sim_random(&random) % 2 == 0;
+    const poses alone = motion(seed, 0, LAST, false, solver);
+    const poses beside = motion(seed, which, when, leave, solver);
     for (int i = 0; i < alone.count; ++i) {
         if (alone.x[i] != beside.x[i] || alone.y[i] != beside.y[i] ||
             alone.angle[i] != beside.angle[i] || alone.vx[i] != beside.vx[i]) {
