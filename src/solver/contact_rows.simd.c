@@ -139,9 +139,13 @@ void PL_WIDE_NAME(pl_contact_prepare_extras)(const pl_contact_call *call, uint32
 }
 
 // Rows of the lanes with a body that has a locked axis.
-WIDE_PART void lock_rows(bundle *c, const special *s, const body *a, const body *b, vm locked,
+WIDE_PART void lock_rows(bundle *c, const special *s, const body *a, const body *b,
                          const pl_contact_call *call)
 {
+    const vm locked = locked_lanes(s, a, b);
+    if (!any(locked)) {
+        return;
+    }
     const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
     const vf nxx = c->nx * c->nx, nyy = c->ny * c->ny;
     const vf mass_a = s->aix * nxx + s->aiy * nyy, mass_b = s->bix * nxx + s->biy * nyy;
@@ -196,10 +200,7 @@ void PL_WIDE_NAME(pl_contact_prepare_specials)(const pl_contact_call *call, uint
                 s->pull[j][i] = m->adhesion * call->h / (near_real)m->count;
             }
         }
-        const vm locked = locked_lanes(s, &a, &b);
-        if (any(locked)) {
-            lock_rows(c, s, &a, &b, locked, call);
-        }
+        lock_rows(c, s, &a, &b, call);
     }
 }
 
