@@ -123,7 +123,7 @@ COST_CLI := $(call objects,float,$(patsubst %,tools/plumb/%.c,cost cost_track co
 	cost_print cost_chart scene_args watch allow output files progress options suggest help))
 PEER_OBJ := $(call objects,double,$(wildcard tests/harness/peer*.c))
 REFEREE_SRC := $(wildcard tests/referee/*.c)
-COST_OBJ := $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c $(REFEREE_SRC)) $(PEER_OBJ) \
+COST_OBJ := $(call objects,float,tests/cost/suite.c tests/cost/sizes.c tests/harness/engine_chipmunk.c $(REFEREE_SRC)) $(PEER_OBJ) \
 	$(O)/double/tests/cost/frozen.o
 $(O)/float/tests/cost/%.o $(O)/float/tests/referee/%.o $(PEER_OBJ): OWN_FLAGS := $(if $(BOX2D3),-DPEER_BOX2D3)
 $(O)/engine_peer.o: $(PEER_OBJ) $(call objects,double,$(ENGINE_SRC)) $(O)/double/libscene.a \
@@ -145,6 +145,11 @@ $(O)/cost-suite $(O)/referee:
 $(O)/cost-frozen: $(O)/double/tests/cost/frozen.o $(call objects,float,tests/harness/interrupt.c) $(COST_CLI) $(O)/double/libscene.a $(O)/libplumb_d.a
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(SCENE_LIBS) -lm -lpthread
+
+# How the exact solver's time grows with an island.
+$(O)/cost-sizes: $(call objects,float,tests/cost/sizes.c tests/harness/sim.c) $(O)/libplumb.a
+	@echo "  LD    $@"
+	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 # Shots at thin walls, beside Box2D: tests/shots.
 $(O)/shots: $(call objects,float,tests/shots/table.c tests/harness/shots.c \
@@ -189,7 +194,7 @@ RUN_PROGRAMS := $(filter $(T:tests/%.c=$(O)/tests/%) $(T:tests/%.c=$(O)/tests-do
 RUN_SH       := $(filter $(T),$(TEST_SH))
 endif
 
-test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples $(if $(filter %/test_cost_suite.sh,$(RUN_SH)),$(O)/cost-suite $(O)/cost-frozen) \
+test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples $(if $(filter %/test_cost_suite.sh,$(RUN_SH)),$(O)/cost-suite $(O)/cost-frozen $(O)/cost-sizes) \
 	$(if $(filter %/test_referee.sh,$(RUN_SH)),$(O)/referee)
 
 # What does not build must not hide what does: every test is still run, those that have no up to date
@@ -230,9 +235,10 @@ bench: $(O)/bench
 # Alone on the machine: COST="--budget 0.05" or other arguments, COST_SCENES="a.lua b.lua".
 COST_SCENES ?= $(sort $(wildcard assets/scenes/accuracy/*.lua))
 FROZEN_SCENES ?= $(sort $(wildcard assets/scenes/*.lua assets/scenes/hard/*.lua))
-cost: $(O)/cost-suite $(O)/cost-frozen
+cost: $(O)/cost-suite $(O)/cost-frozen $(O)/cost-sizes
 	$(O)/cost-suite --folder $(O)/cost $(COST) $(COST_SCENES)
 	$(O)/cost-frozen --folder $(O)/cost $(FROZEN_SCENES)
+	$(O)/cost-sizes | tee $(O)/cost/sizes.md
 
 # The matrix of compilers, optimisation levels, a sanitizer, widths, solvers. See the script.
 determinism:
