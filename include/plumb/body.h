@@ -125,7 +125,8 @@ PLUMB_API plumb_real plumb_body_inertia(const plumb_world *world, plumb_body bod
 /// [m] centre of mass in the body's frame.
 PLUMB_API plumb_vec2 plumb_body_local_center(const plumb_world *world, plumb_body body);
 
-/// Moves a body at once, without travel: contacts are found anew. [m], [rad].
+/// Moves a body at once, without travel: contacts are found anew. [m], [rad]. One that is there already keeps its contacts, and
+/// sleeps on if it does.
 /// Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_LOCKED.
 PLUMB_API plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
                                            plumb_real angle);

@@ -182,6 +182,19 @@ void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plu
     }
 }
 
+void pl_body_move_to(plumb_world *world, const char *fn, uint32_t row, plumb_vec2 position,
+                     plumb_real angle)
+{
+    const pl_bodies *b = &world->bodies;
+    const plumb_rot now = { b->c[row], b->s[row] };
+    const bool turns = angle != plumb_rot_angle(now);
+    if (turns || position.x != b->x[row] || position.y != b->y[row]) {
+        pl_body_place_at(world, row, position, turns ? plumb_rot_make(angle) : now);
+    }
+    pl_target_forget(world, row);
+    pl_told(world, b->entity[row].entity, fn);
+}
+
 plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
                                  plumb_real angle)
 {
@@ -189,8 +202,7 @@ plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2
     PL_TRY(pl_check_body(world, __func__, body, &row));
     PL_TRY(pl_place_check(world, __func__, position, angle));
     PL_TRY(pl_check_unlocked(world, __func__));
-    pl_body_place(world, row, position, angle);
-    pl_told(world, body.entity, __func__);
+    pl_body_move_to(world, __func__, row, position, angle);
     return PLUMB_OK;
 }
 
@@ -222,14 +234,18 @@ plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_
     PL_TRY(pl_check_finite_vec(world, __func__, "velocity", velocity));
     PL_TRY(check_movable(world, __func__, row));
     PL_TRY(check_locks(world, __func__, row, velocity));
-    if (velocity.x != world->bodies.vx[row] || velocity.y != world->bodies.vy[row]) {
+    pl_bodies *b = &world->bodies;
+    const bool other_x = velocity.x != b->vx[row], other_y = velocity.y != b->vy[row];
+    if (other_x || other_y) {
         pl_sleep_stir(world, row);
         pl_told(world, body.entity, __func__);
     }
     pl_target_forget(world, row);
-    world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
-    world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
-    world->bodies.residual_vx[row] = world->bodies.residual_vy[row] = 0;
+    b->vx[row] = pl_poses(world)[row].vx = velocity.x;
+    b->vy[row] = pl_poses(world)[row].vy = velocity.y;
+    b->residual_vx[row] =
+        other_x ? 0 : b->residual_vx[row]; // what stays as it is keeps its last digits
+    b->residual_vy[row] = other_y ? 0 : b->residual_vy[row];
     return PLUMB_OK;
 }
 
@@ -272,6 +288,9 @@ plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real
     PL_TRY(pl_check_range(world, __func__, "mass", mass, PL_MASS_LEAST, PL_MASS_MOST));
     PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     pl_bodies *b = &world->bodies;
+    if (mass == b->set_mass[row]) {
+        return PLUMB_OK;
+    }
     double ratio = (double)mass / (double)b->mass[row];
     double inertia = (double)b->set_inertia[row] * ratio;
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
@@ -296,14 +315,22 @@ plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
 {
     uint32_t row;
     PL_TRY(pl_check_dynamic(world, __func__, body, &row));
-    pl_sleep_disturb(world, row);
+    pl_bodies *b = &world->bodies;
     pl_pieces *pieces = &world->pieces;
-    for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
-        pieces->density[p] = pl_density_of(world, p);
+    bool as_it_was = b->set_mass[row] == 0 && b->set_inertia[row] == 0 &&
+                     (b->flags[row] & PL_BODY_OWN_CENTER) == 0;
+    for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
+        const real density = pl_density_of(world, p);
+        as_it_was &= pieces->density[p] == density;
+        pieces->density[p] = density;
     }
-    world->bodies.set_mass[row] = 0;
-    world->bodies.set_inertia[row] = 0;
-    world->bodies.flags[row] &= (uint16_t)~PL_BODY_OWN_CENTER;
+    if (as_it_was) {
+        return PLUMB_OK;
+    }
+    pl_sleep_disturb(world, row);
+    b->set_mass[row] = 0;
+    b->set_inertia[row] = 0;
+    b->flags[row] &= (uint16_t)~PL_BODY_OWN_CENTER;
     pl_mass_revise(world, row);
     pl_told(world, body.entity, __func__);
     return PLUMB_OK;

@@ -28,10 +28,23 @@ static plumb_result open(plumb_world *world, const char *fn, uint32_t row, pl_bo
     return PLUMB_OK;
 }
 
-static plumb_result store(plumb_world *world, uint32_t row, const pl_body_settings *t)
+static bool are_equal(const pl_body_settings *a, const pl_body_settings *b)
 {
-    pl_body_settings_set(world, row, t);
-    pl_sleep_disturb(world, row);
+#define IS_EQUAL(name, initial) &&a->name == b->name
+    return true PL_BODY_ROWS(PL_ROW_RECORD, IS_EQUAL);
+#undef IS_EQUAL
+}
+
+// What is set to what it was wakes nobody.
+static plumb_result store(plumb_world *world, const char *fn, uint32_t row,
+                          const pl_body_settings *t)
+{
+    const pl_body_settings was = pl_body_settings_get(world, row);
+    if (!are_equal(&was, t)) {
+        pl_body_settings_set(world, row, t);
+        pl_sleep_disturb(world, row);
+        pl_told(world, t->body.entity, fn);
+    }
     return PLUMB_OK;
 }
 
@@ -46,8 +59,7 @@ plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_r
     PL_TRY(open(world, __func__, row, &t));
     t.damping = linear;
     t.angular_damping = angular;
-    pl_told(world, body.entity, __func__);
-    return store(world, row, &t);
+    return store(world, __func__, row, &t);
 }
 
 plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb_real max_speed,
@@ -61,8 +73,7 @@ plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb
     PL_TRY(open(world, __func__, row, &t));
     t.max_speed = max_speed;
     t.max_spin = max_spin;
-    pl_told(world, body.entity, __func__);
-    return store(world, row, &t);
+    return store(world, __func__, row, &t);
 }
 
 plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plumb_real scale)
@@ -72,10 +83,12 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     PL_TRY(pl_check_body(world, __func__, body, &row));
     PL_TRY(check(world, __func__, "scale", "time_scale", scale));
     PL_TRY(open(world, __func__, row, &t));
+    const bool other = scale != t.time_scale;
     t.time_scale = scale;
-    pl_told(world, body.entity, __func__);
-    store(world, row, &t);
-    pl_target_reaim(world, row);
+    store(world, __func__, row, &t);
+    if (other) {
+        pl_target_reaim(world, row);
+    }
     return PLUMB_OK;
 }
 
@@ -89,8 +102,7 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
         PL_TRY(check(world, __func__, #name, #name, name));                                        \
         PL_TRY(open(world, __func__, row, &t));                                                    \
         t.name = name;                                                                             \
-        pl_told(world, body.entity, __func__);                                                     \
-        return store(world, row, &t);                                                              \
+        return store(world, __func__, row, &t);                                                    \
     }
 NUMBER_SETTER(charge)
 NUMBER_SETTER(attraction)

@@ -102,10 +102,15 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
     uint32_t row;
     PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     uint16_t *flags = &world->bodies.flags[row];
-    bool was = (*flags & PL_BODY_LOCKED) != 0;
-    *flags = (uint16_t)((*flags & ~(PL_BODY_LOCKED | PL_BODY_FIXED_ROTATION)) |
-                        (locks.x ? PL_BODY_LOCK_X : 0) | (locks.y ? PL_BODY_LOCK_Y : 0) |
-                        (locks.rotation ? PL_BODY_FIXED_ROTATION : 0));
+    const uint16_t wanted =
+        (uint16_t)((*flags & ~(PL_BODY_LOCKED | PL_BODY_FIXED_ROTATION)) |
+                   (locks.x ? PL_BODY_LOCK_X : 0) | (locks.y ? PL_BODY_LOCK_Y : 0) |
+                   (locks.rotation ? PL_BODY_FIXED_ROTATION : 0));
+    if (wanted == *flags) {
+        return PLUMB_OK;
+    }
+    const bool was = (*flags & PL_BODY_LOCKED) != 0;
+    *flags = wanted;
     world->locked_bodies += (locks.x || locks.y ? 1u : 0u) - (was ? 1u : 0u);
     pl_joints_replan(&world->joints);
     world->bodies.residual_vx[row] = world->bodies.residual_vy[row] = 0;
@@ -125,6 +130,9 @@ plumb_result plumb_body_set_inertia(plumb_world *world, plumb_body body, plumb_r
     PL_TRY(pl_check_body(world, __func__, body, &row));
     PL_TRY(pl_check_range(world, __func__, "inertia", inertia, PL_MASS_LEAST, PL_MASS_MOST));
     PL_TRY(pl_check_dynamic(world, __func__, body, &row));
+    if (inertia == world->bodies.set_inertia[row]) {
+        return PLUMB_OK;
+    }
     world->bodies.set_inertia[row] = inertia;
     pl_mass_revise(world, row);
     pl_sleep_disturb(world, row);
@@ -139,6 +147,10 @@ plumb_result plumb_body_set_local_center(plumb_world *world, plumb_body body, pl
     PL_TRY(pl_check_within(world, __func__, "center", center, CENTER_MOST));
     PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     pl_bodies *b = &world->bodies;
+    if ((b->flags[row] & PL_BODY_OWN_CENTER) != 0 && center.x == b->local_x[row] &&
+        center.y == b->local_y[row]) {
+        return PLUMB_OK;
+    }
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
     pl_body_mass mass;
     pl_mass_recenter(&sum, center.x, center.y);
@@ -163,9 +175,8 @@ plumb_result plumb_body_set_position(plumb_world *world, plumb_body body, plumb_
     PL_TRY(pl_check_body(world, __func__, body, &row));
     PL_TRY(pl_place_check(world, __func__, position, 0));
     PL_TRY(pl_check_unlocked(world, __func__));
-    plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
-    pl_body_place_at(world, row, position, q);
-    pl_told(world, body.entity, __func__);
+    const plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
+    pl_body_move_to(world, __func__, row, position, plumb_rot_angle(q));
     return PLUMB_OK;
 }
 
@@ -175,7 +186,7 @@ plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body, plumb_rea
     PL_TRY(pl_check_body(world, __func__, body, &row));
     PL_TRY(pl_check_finite(world, __func__, "angle", angle));
     PL_TRY(pl_check_unlocked(world, __func__));
-    pl_body_place(world, row, plumb_v2(world->bodies.x[row], world->bodies.y[row]), angle);
-    pl_told(world, body.entity, __func__);
+    pl_body_move_to(world, __func__, row, plumb_v2(world->bodies.x[row], world->bodies.y[row]),
+                    angle);
     return PLUMB_OK;
 }

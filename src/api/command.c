@@ -316,9 +316,8 @@ static plumb_result run_on_live(plumb_world *world, const pl_command *r, const c
     case PL_COMMAND_DESTROY:
         return run_destroy(world, r);
     case PL_COMMAND_TELEPORT:
-        pl_body_place(world, pl_body_row(world, (plumb_body){ r->target }),
-                      plumb_v2((plumb_real)r->x, (plumb_real)r->y), (plumb_real)r->angle);
-        pl_told(world, r->target, pl_command_name(r));
+        pl_body_move_to(world, pl_command_name(r), pl_body_row(world, (plumb_body){ r->target }),
+                        plumb_v2((plumb_real)r->x, (plumb_real)r->y), (plumb_real)r->angle);
         return PLUMB_OK;
     case PL_COMMAND_CUT:
     case PL_COMMAND_SHATTER:

@@ -62,9 +62,14 @@ plumb_result plumb_shape_set_one_way(plumb_world *world, plumb_shape shape, plum
     uint32_t first;
     PL_TRY(pl_check_shape(world, __func__, shape, &first));
     PL_TRY(pl_one_way_check(world, __func__, &one_way));
+    const plumb_one_way was = plumb_shape_one_way(world, shape);
     pl_one_way_apply(world, first, &one_way);
-    pl_sleep_disturb_piece(world, first);
-    world->rearranged = true;
+    const plumb_one_way is = plumb_shape_one_way(world, shape);
+    if (is.direction.x != was.direction.x || is.direction.y != was.direction.y ||
+        is.angle != was.angle) {
+        pl_sleep_disturb_piece(world, first);
+        world->rearranged = true;
+    }
     return PLUMB_OK;
 }
 

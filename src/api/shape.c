@@ -140,6 +140,9 @@ plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plum
     pl_pieces *pieces = &world->pieces;
     uint32_t row = pieces->body[first];
     real own = pieces->own_density[first], old = pieces->density[first];
+    if (density == own && old == pl_density_of(world, first)) {
+        return PLUMB_OK;
+    }
     for (uint32_t p = first; p != PL_NONE; p = pieces->next_in_shape[p]) {
         pieces->own_density[p] = density;
         pieces->density[p] = pl_density_of(world, p);

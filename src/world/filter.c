@@ -95,6 +95,10 @@ plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb
     uint32_t first;
     PL_TRY(pl_check_shape(world, __func__, shape, &first));
     PL_TRY(pl_filter_check(world, __func__, &filter));
+    const plumb_filter was = plumb_shape_filter(world, shape), wanted = resolved(filter);
+    if (wanted.category == was.category && wanted.mask == was.mask && wanted.group == was.group) {
+        return PLUMB_OK;
+    }
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         pl_sleep_see_anew(world, p);
     }

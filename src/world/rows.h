@@ -173,6 +173,10 @@ plumb_result pl_shape_insert(plumb_world *world, const char *function, uint32_t 
                              const plumb_shape_desc *desc, const pl_made *made, plumb_shape *shape);
 void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle);
 void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_rot q);
+// The same for a body that is somewhere, asked for by the function of that name: one that is there already keeps its contacts
+// and goes on.
+void pl_body_move_to(plumb_world *world, const char *fn, uint32_t row, plumb_vec2 position,
+                     plumb_real angle);
 // Disables a body, at rest, also within a step. Rows move.
 void pl_body_take_out(plumb_world *world, uint32_t row);
 // Row, pieces and joints of a body whose type or flags have changed, to where they belong (relocate.c).

@@ -20,6 +20,8 @@ static const plumb_vec2 up = { 0, 1 }, none = { 0, 0 };
 
 CHANGE(wake, plumb_body_wake(p->w, p->high))
 CHANGE(teleport, plumb_body_teleport(p->w, p->apart, plumb_v2(5, 3), 0))
+CHANGE(same_place, plumb_body_teleport(p->w, p->apart, plumb_body_position(p->w, p->apart),
+                                       plumb_body_angle(p->w, p->apart)))
 CHANGE(velocity, plumb_body_set_velocity(p->w, p->low, up))
 CHANGE(same_velocity, plumb_body_set_velocity(p->w, p->low, none))
 CHANGE(spin, plumb_body_set_angular_velocity(p->w, p->low, 1))
@@ -32,7 +34,16 @@ CHANGE(impulse, plumb_body_apply_impulse(p->w, p->apart, up, none))
 CHANGE(no_impulse, plumb_body_apply_impulse_center(p->w, p->apart, none))
 CHANGE(turn, plumb_body_apply_angular_impulse(p->w, p->apart, 1))
 CHANGE(mass, plumb_body_set_mass(p->w, p->apart, 3))
-CHANGE(reset_mass, plumb_body_reset_mass(p->w, p->apart))
+CHANGE(same_mass, plumb_body_reset_mass(p->w, p->apart))
+CHANGE(inertia, plumb_body_set_inertia(p->w, p->apart, 3))
+CHANGE(damping, plumb_body_set_damping(p->w, p->apart, 1, 0))
+CHANGE(same_damping, plumb_body_set_damping(p->w, p->apart, 0, 0))
+CHANGE(cap, plumb_body_set_speed_cap(p->w, p->apart, 1, 0))
+CHANGE(same_cap, plumb_body_set_speed_cap(p->w, p->apart, 0, 0))
+CHANGE(time_scale, plumb_body_set_time_scale(p->w, p->apart, 2))
+CHANGE(same_time_scale, plumb_body_set_time_scale(p->w, p->apart, 1))
+CHANGE(locks, plumb_body_set_locks(p->w, p->apart, (plumb_axis_locks){ .x = true }))
+CHANGE(same_locks, plumb_body_set_locks(p->w, p->apart, (plumb_axis_locks){ .x = false }))
 CHANGE(fix, plumb_body_set_fixed_rotation(p->w, p->apart, true))
 CHANGE(not_fix, plumb_body_set_fixed_rotation(p->w, p->apart, false))
 CHANGE(scale, plumb_body_set_gravity_scale(p->w, p->apart, 2))
@@ -47,6 +58,8 @@ CHANGE(remove_shape, plumb_shape_destroy(p->w, p->low_box))
 CHANGE(shape_material, plumb_shape_set_material(p->w, p->low_box, (plumb_material)PLUMB_NULL_INIT))
 CHANGE(same_material, plumb_shape_set_material(p->w, p->low_box, p->wood))
 CHANGE(filter, plumb_shape_set_filter(p->w, p->low_box, (plumb_filter){ .category = 2 }))
+CHANGE(same_filter, plumb_shape_set_filter(p->w, p->low_box, (plumb_filter){ .category = 1 }))
+CHANGE(same_one_way, plumb_shape_set_one_way(p->w, p->low_box, (plumb_one_way){ .angle = 0 }))
 CHANGE(sensor, plumb_shape_set_sensor(p->w, p->low_box, true))
 CHANGE(not_sensor, plumb_shape_set_sensor(p->w, p->low_box, false))
 CHANGE(exclude, plumb_world_exclude_pair(p->w, p->low, p->ground, true))
@@ -179,7 +192,19 @@ static const waker wakers[] = {
     ROW(no_impulse, 0),
     ROW(turn, APART),
     ROW(mass, APART),
-    ROW(reset_mass, APART),
+    ROW(same_mass, 0),
+    ROW(inertia, APART),
+    ROW(damping, APART),
+    ROW(same_damping, 0),
+    ROW(cap, APART),
+    ROW(same_cap, 0),
+    ROW(time_scale, APART),
+    ROW(same_time_scale, 0),
+    ROW(locks, APART),
+    ROW(same_locks, 0),
+    ROW(same_place, 0),
+    ROW(same_filter, 0),
+    ROW(same_one_way, 0),
     ROW(fix, APART),
     ROW(not_fix, 0),
     ROW(scale, APART),

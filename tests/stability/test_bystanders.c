@@ -12,19 +12,13 @@
 
 #include <cmocka.h>
 
-#include "harness/sim.h"
+#include "harness/pile.h"
 #include "harness/trials.h"
 
 enum {
-    MOST = 12, // bodies of a heap
     STEPS = 150,
     ELSEWHERE = 300 // [m]
 };
-
-static double between(uint32_t *random, double low, double high)
-{
-    return sim_uniform(random, low, high);
-}
 
 static plumb_material plain(plumb_world *w)
 {
@@ -41,54 +35,6 @@ static plumb_material made_of(plumb_world *w, plumb_material_desc desc)
 static void ground(plumb_world *w, double x, double half)
 {
     sim_add_box(w, sim_body(w, PLUMB_STATIC, x, -1, 0), half, 1, plain(w));
-}
-
-//---- a heap --------------------------------------------------------------------------------------------
-
-static plumb_body piece_of_heap(plumb_world *w, uint32_t *random, double x, double y,
-                                plumb_material m)
-{
-    const double size = between(random, 0.2, 0.6);
-    const uint32_t kind = sim_random(random) % 4;
-    plumb_body b = sim_body(w, PLUMB_DYNAMIC, x, y, between(random, -1, 1));
-    if (kind == 0) {
-        sim_add_circle(w, b, size, m);
-    } else if (kind == 1) {
-        sim_add_box(w, b, size, between(random, 0.1, 0.6), m);
-    } else if (kind == 2) {
-        sim_add_box(w, b, size, 0.1, m);
-        sim_add_box(w, b, 0.1, size, m);
-    } else {
-        const plumb_vec2 points[3] = { sim_vec(-size, -size), sim_vec(size, -size / 2),
-                                       sim_vec(0, size) };
-        plumb_shape s = plumb_shape_create(
-            w, b,
-            &(plumb_shape_desc){
-                .kind = PLUMB_POLYGON, .points = points, .count = 3, .material = m });
-        assert_false(plumb_is_null(s));
-    }
-    sim_launch(w, b, between(random, -5, 5), between(random, -5, 5), between(random, -5, 5));
-    return b;
-}
-
-static int heap(plumb_world *w, uint32_t seed, plumb_body *bodies)
-{
-    uint32_t random = seed;
-    ground(w, 0, 40);
-    const double restitutions[4] = { 0, 0.1, 0.5, 1 };
-    const plumb_material m = sim_material(w, 0.5, restitutions[sim_random(&random) % 4]);
-    const int count = 2 + (int)(sim_random(&random) % (MOST - 1));
-    for (int i = 0; i < count; ++i) {
-        const double x = 1.3 * (i % 4) + between(&random, -0.2, 0.2);
-        bodies[i] = piece_of_heap(w, &random, x, 1 + 1.4 * (double)(i / 4), m);
-        if (i > 0 && sim_random(&random) % 3 == 0) {
-            sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
-                                             .body_a = bodies[i - 1],
-                                             .body_b = bodies[i],
-                                             .anchor = sim_vec(x - 0.6, 1.5) });
-        }
-    }
-    return count;
 }
 
 //---- bystanders ----------------------------------------------------------------------------------------
@@ -244,11 +190,6 @@ static void place(plumb_world *w, uint32_t which)
 
 //---- beside them ---------------------------------------------------------------------------------------
 
-typedef struct poses {
-    int count;
-    double x[MOST], y[MOST], angle[MOST], vx[MOST];
-} poses;
-
 // When bystanders come, and whether those that can go leave in the middle of it.
 typedef enum coming { FIRST, LAST, ON_THE_WAY, COMINGS } coming;
 
@@ -267,14 +208,15 @@ static void remove_bystanders(plumb_world *w)
     }
 }
 
-static poses motion(uint32_t seed, uint32_t which, coming when, bool leave, plumb_solver solver)
+static pile_poses motion(uint32_t seed, uint32_t which, coming when, bool leave,
+                         plumb_solver solver)
 {
     plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solver });
-    plumb_body bodies[MOST];
+    plumb_body bodies[PILE_MOST];
     if (which != 0 && when == FIRST) {
         place(w, which);
     }
-    poses p = { .count = heap(w, seed, bodies) };
+    const int count = pile_make(w, seed, bodies);
     if (which != 0 && when == LAST) {
         place(w, which);
     }
@@ -287,10 +229,7 @@ static poses motion(uint32_t seed, uint32_t which, coming when, bool leave, plum
         }
         sim_step(w, 1.0 / 60);
     }
-    for (int i = 0; i < p.count; ++i) {
-        p.x[i] = sim_x(w, bodies[i]), p.y[i] = sim_y(w, bodies[i]);
-        p.angle[i] = sim_angle(w, bodies[i]), p.vx[i] = sim_vx(w, bodies[i]);
-    }
+    const pile_poses p = pile_poses_of(w, bodies, count);
     plumb_world_destroy(w);
     return p;
 }
@@ -303,15 +242,13 @@ static void moves_as_alone(uint32_t number, plumb_solver solver)
     which |= 1u << number % KINDS;
     const coming when = (coming)(number % COMINGS);
     const bool leave = sim_random(&random) % 2 == 0;
-    const poses alone = motion(seed, 0, LAST, false, solver);
-    const poses beside = motion(seed, which, when, leave, solver);
-    for (int i = 0; i < alone.count; ++i) {
-        if (alone.x[i] != beside.x[i] || alone.y[i] != beside.y[i] ||
-            alone.angle[i] != beside.angle[i] || alone.vx[i] != beside.vx[i]) {
-            fail_msg("case %u: beside %#x, body %d of %d is off by %g, %g m", (unsigned)number,
-                     (unsigned)which, i, alone.count, beside.x[i] - alone.x[i],
-                     beside.y[i] - alone.y[i]);
-        }
+    const pile_poses alone = motion(seed, 0, LAST, false, solver);
+    const pile_poses beside = motion(seed, which, when, leave, solver);
+    const int i = pile_first_apart(&alone, &beside);
+    if (i >= 0) {
+        fail_msg("case %u: beside %#x, body %d of %d is off by %g, %g m", (unsigned)number,
+                 (unsigned)which, i, alone.count, beside.x[i] - alone.x[i],
+                 beside.y[i] - alone.y[i]);
     }
 }
 
