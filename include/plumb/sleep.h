@@ -18,7 +18,8 @@
 /// An island wakes as a whole, at the start of a step and before contacts are solved, when
 /// - an awake body or a moving kinematic one touches it, comes within 2 cm or will in this step;
 /// - one of its bodies, shapes, materials or joints is changed, or is pushed, or one is destroyed;
-/// - a static or kinematic body that it touches is changed or destroyed, or a new one touches it;
+/// - a static or kinematic body that it touches is changed or destroyed, or a new one touches it; where a static body gets or
+///   loses a shape, the shape decides, not the body: tiles may be built and dug where nobody lies on them;
 /// - gravity or the tuning of contacts is changed, or a system of PLUMB_PHASE_CONTACTS is registered or
 ///   switched (such systems see no sleeping contacts).
 /// What sets a value that is already there does not wake.

@@ -1,7 +1,7 @@
 // shape.c - shapes are added to bodies, removed and asked. A shape's entity names its first piece.
 //
 // Reads: arguments, pieces. Writes: piece rows through piece.c, mass through mass.c.
-// Cost: O(pieces of the body) to add or remove, O(pieces of the shape) to ask.
+// Cost: to add to a static body O(pieces of the shape), to another and to remove O(pieces of the body); O(pieces of the shape) to ask.
 #include "world/destroy.h"
 #include "world/island.h"
 #include "narrow/one_way.h"
@@ -23,11 +23,13 @@ static plumb_result check_mass(const plumb_world *world, const char *fn, uint32_
                                const pl_made *made, real density)
 {
     const pl_bodies *b = &world->bodies;
+    if (b->type[row] != PLUMB_DYNAMIC) {
+        return PLUMB_OK;
+    }
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
     pl_mass_add(&sum, made->area, density);
     pl_body_mass mass;
-    if (b->type[row] != PLUMB_DYNAMIC ||
-        pl_mass_resolve(&sum, b->set_mass[row], b->set_inertia[row], &mass)) {
+    if (pl_mass_resolve(&sum, b->set_mass[row], b->set_inertia[row], &mass)) {
         return PLUMB_OK;
     }
     return pl_fail(world, PLUMB_E_RANGE, fn,

@@ -38,7 +38,7 @@ static void destroy_shape(plumb_world *world, plumb_shape shape)
 {
     uint32_t first = pl_shape_piece(world, shape);
     uint32_t row = world->pieces.body[first];
-    pl_sleep_disturb(world, row);
+    pl_sleep_disturb_shape(world, first);
     pl_waves_forget(world, shape);
     pl_pieces_remove(world, first);
     pl_registry_release(&world->registry, shape.entity);

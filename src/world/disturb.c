@@ -6,7 +6,7 @@
 // at the next step, those that touch an immovable body that was changed (rest.c).
 //
 // Reads: rows, contacts at pieces. Writes: islands, times of rest. Cost: O(1) for dynamic bodies,
-// O(sleeping contacts of the body) for others; pl_sleep_disturb_all O(bodies).
+// O(sleeping contacts of the body, or of the shape) for others; pl_sleep_disturb_all O(bodies).
 #include "core/sort.h"
 #include "world/island.h"
 #include "world/rows.h"
@@ -151,5 +151,17 @@ void pl_sleep_forget(plumb_world *world, uint32_t row)
     const pl_island *i = &pl_islands(&world->sleep)[island];
     if (i->body_count == 0 && i->first_contact == PL_NONE) {
         pl_island_close(world, island);
+    }
+}
+
+void pl_sleep_disturb_shape(plumb_world *world, uint32_t first)
+{
+    const uint32_t row = world->pieces.body[first];
+    if (world->bodies.type[row] != PLUMB_STATIC) {
+        pl_sleep_disturb(world, row);
+        return;
+    }
+    for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        pl_sleep_disturb_piece(world, p);
     }
 }

@@ -14,6 +14,8 @@
 void pl_sleep_disturb(plumb_world *world, uint32_t row);
 // The same of a piece and its body.
 void pl_sleep_disturb_piece(plumb_world *world, uint32_t piece);
+// A shape, known by its first piece, comes or goes: what touches another shape of a static body sleeps on.
+void pl_sleep_disturb_shape(plumb_world *world, uint32_t first);
 // What sleeps in a piece of a volume of fluid; nothing of another piece.
 void pl_sleep_wake_swimmers(plumb_world *world, uint32_t piece);
 // The body of a row was set in motion.

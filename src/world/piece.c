@@ -206,7 +206,7 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
     }
     pl_internal_edges_touch_shape(world, first);
     ++world->shape_count;
-    pl_sleep_disturb(world, row);
+    pl_sleep_disturb_shape(world, first);
     pl_rearranged(world);
     world->schedule_dirty = true;
     return first;

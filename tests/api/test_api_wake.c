@@ -64,6 +64,7 @@ CHANGE(sensor, plumb_shape_set_sensor(p->w, p->low_box, true))
 CHANGE(not_sensor, plumb_shape_set_sensor(p->w, p->low_box, false))
 CHANGE(exclude, plumb_world_exclude_pair(p->w, p->low, p->ground, true))
 CHANGE(destroy_low, plumb_body_destroy(p->w, p->low))
+CHANGE(dig_away, plumb_shape_destroy(p->w, p->floor))
 CHANGE(destroy_ground, plumb_body_destroy(p->w, p->ground))
 CHANGE(move_ground, plumb_body_teleport(p->w, p->ground, plumb_v2(0, -9), 0))
 CHANGE(floor_filter, plumb_shape_set_filter(p->w, p->floor, (plumb_filter){ .category = 2 }))
@@ -106,6 +107,16 @@ static plumb_result add_ground_shape(place *p)
 {
     const plumb_shape_desc post = { .kind = PLUMB_BOX, .half = { R(0.5), 1 }, .center = { 6, 1 } };
     return made(p->w, plumb_shape_create(p->w, p->ground, &post));
+}
+
+static plumb_result build_and_dig(place *p)
+{
+    const plumb_shape_desc tile = { .kind = PLUMB_BOX,
+                                    .half = { R(0.5), R(0.5) },
+                                    .center = { 30, 1 } };
+    const plumb_shape there = plumb_shape_create(p->w, p->ground, &tile);
+    steps(p->w, 1);
+    return plumb_shape_destroy(p->w, there);
 }
 
 static plumb_result add_wall_beside(place *p)
@@ -223,6 +234,7 @@ static const waker wakers[] = {
     ROW(not_sensor, 0),
     ROW(exclude, STACK | APART),
     ROW(destroy_low, HIGH),
+    ROW(dig_away, STACK | APART),
     ROW(destroy_ground, STACK | APART),
     ROW(move_ground, STACK | APART),
     ROW(floor_filter, STACK | APART),
@@ -250,9 +262,10 @@ static const waker wakers[] = {
     ROW(hit_speed, 0),
     ROW(add_shape, APART),
     ROW(add_joint, STACK | APART),
-    ROW(add_ground_shape, STACK | APART), // to what the body touches already
-    ROW(add_wall_beside, APART),          // 1 cm apart
-    ROW(add_wall_apart, 0),               // 10 cm apart
+    ROW(add_ground_shape, APART), // touches one
+    ROW(build_and_dig, 0),        // tiles of the same body, elsewhere
+    ROW(add_wall_beside, APART),  // 1 cm apart
+    ROW(add_wall_apart, 0),       // 10 cm apart
     ROW(add_kinematic_inside, APART),
     ROW(add_awake_beside, APART),
     ROW(add_awake_apart, 0),
