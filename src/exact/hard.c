@@ -2,7 +2,7 @@
 //
 // A soft contact gives way to its load F by s = F (1/m_A + 1/m_B) / w^2, and a sweep a substep hands a load on by one
 // contact: what bears much is pressed in, and what stands on it falls over. A contact is a seed of its island that is
-// - uneven: one body is UNEVEN times as heavy as the other, and lies on it; or gives way by more than DEEP of their size, and the
+// - uneven: one body is PL_UNEVEN times as heavy as the other, and lies on it; or gives way by more than DEEP of their size, and the
 //   lighter one bears BORNE of its weight; or
 // - pressed: at two looks, LOOK steps apart, it gave way by so much and bore BURDEN times the weight of the lighter body. A blow
 //   does not last so long. A young world is looked at after 1, 2, 4 and 8 steps, too: it may begin with a stack.
@@ -20,7 +20,6 @@
 #include <math.h>
 
 #define DEEP   2e-2 // of the way from the contact to the centre of mass
-#define UNEVEN 10.0
 #define BORNE  0.25
 #define BURDEN 4.0
 #define ABOVE  0.3               // cosine
@@ -45,12 +44,6 @@ static double inverse_mass(const look_at *s, uint32_t row)
 }
 
 //---- seeds ---------------------------------------------------------------------------------------------
-
-static bool are_uneven(const look_at *s, uint32_t row_a, uint32_t row_b)
-{
-    const double a = inverse_mass(s, row_a), b = inverse_mass(s, row_b);
-    return (a > UNEVEN * b && b > 0) || (b > UNEVEN * a && a > 0);
-}
 
 // [m] from a contact to the nearer centre of mass of those that move, along the normal.
 static double arm_of(const look_at *s, const pl_manifold *m)
@@ -101,7 +94,7 @@ static bool is_above(const look_at *s, const pl_manifold *m)
 // Uneven, whether the lighter body bears much already or not.
 static bool is_uneven(const look_at *s, const pl_manifold *m, const burden *b)
 {
-    return are_uneven(s, m->body_a, m->body_b) &&
+    return pl_are_uneven(s->world, m->body_a, m->body_b) &&
            ((is_above(s, m) && pl_is_near(m, NEAR)) || (b->deep && b->heavier > BORNE));
 }
 
@@ -123,7 +116,7 @@ static void look_at_fresh(const look_at *s)
     bool large = false;
     for (uint32_t i = 0; i < s->world->narrow.fresh_count; ++i) {
         pl_pair *pair = &pl_pairs(&s->world->broad.pairs)[fresh[i]];
-        if (pair->manifold >= s->contacts || !are_uneven(s, pair->body_a, pair->body_b) ||
+        if (pair->manifold >= s->contacts || !pl_are_uneven(s->world, pair->body_a, pair->body_b) ||
             (pair->flags & PL_PAIR_LARGE) != 0 ||
             !is_above(s, &pl_manifolds(&s->world->narrow)[pair->manifold])) {
             continue;
@@ -179,7 +172,7 @@ static bool masses_are_uneven(const plumb_world *world)
         least = inverse[row] < least ? inverse[row] : least;
         most = inverse[row] > most ? inverse[row] : most;
     }
-    return (double)most > UNEVEN * (double)least;
+    return (double)most > PL_UNEVEN * (double)least;
 }
 
 void pl_hard_look(plumb_world *world)

@@ -14,7 +14,9 @@
 //
 // An island is all that hangs together by contacts and joints, through kinematic bodies too, as in cluster.c, but found anew
 // in each step: it depends on the past by a few flags a pair. Hard ones have PL_HARD_MOST contacts and joints at the most, none of
-// which bounces or is driven.
+// which bounces or is driven. All of a step together have no more: a direct solution takes a hundred times as long as sweeps, and
+// no frame is to be missed for what nobody asked for. Those whose seeds are but pressed, between masses that sweeps can hold, have
+// PRESSED_MOST. Where there are more, those go on that were hard in the last step, then small ones come first.
 //
 // Reads: manifolds, ends, joints, flags of pairs. Writes: labels of rows, hard contacts, flags of pairs, impulses of manifolds. Order:
 // behind clusters and seeds, before the graph; pl_fine_note behind the substeps. Cost: O(contacts + bodies) where there are seeds or
@@ -29,18 +31,26 @@
 #include <math.h>
 #include <string.h>
 
-#define SMALL  512 // contacts and joints of a world with fine islands
-#define FINEST 16  // substeps of a fine island
+#define SMALL        512 // contacts and joints of a world with fine islands
+#define PRESSED_MOST 32  // contacts and joints of all islands with seeds of even masses alone
+#define FINEST       16  // substeps of a fine island
 
 // [m] of a contact with what moves by itself: whoever bears that is crushed. What a lift carries or a plough pushes sinks in by less.
 #define CRUSHED ((near_real)5e-3)
+
+// [m] of a contact that counts; what is farther off takes no time of the direct method.
+#define NEAR ((near_real)1e-3)
 
 // [s] in which stiffness rises by one of PL_STIFF_LEVELS: by e in half a second, as in soft.c.
 #define LEVEL_TIME 0.0533190138892265 // 0.5 ln 4 / 13
 
 typedef struct pl_apart_tally {
     uint32_t contacts; // and joints
+    uint32_t near;     // likewise, but contacts of surfaces that are near alone
     bool seeded;       // some contact is a seed of a hard island
+    bool uneven;       // likewise, and one body of the contact is much heavier
+    bool before;       // some contact was of a hard island in the last step
+    bool hard;         // solved exactly
     bool barred;       // not to be solved exactly
     bool crushed;      // a kinematic body presses into it
     bool stirred;      // two dynamic bodies touch
@@ -55,6 +65,14 @@ typedef struct search {
     pl_apart_tally *tallies; // of leaders
     bool fine;               // the world may have fine islands
 } search;
+
+bool pl_are_uneven(const plumb_world *world, uint32_t row_a, uint32_t row_b)
+{
+    const uint32_t dynamic = world->dynamic_count;
+    const double a = row_a < dynamic ? (double)world->bodies.inv_mass[row_a] : 0;
+    const double b = row_b < dynamic ? (double)world->bodies.inv_mass[row_b] : 0;
+    return (a > PL_UNEVEN * b && b > 0) || (b > PL_UNEVEN * a && a > 0);
+}
 
 static bool is_seed(const search *s, uint32_t i)
 {
@@ -120,6 +138,7 @@ static void tally_joints(const search *s)
         if (leader != PL_NONE) {
             pl_apart_tally *t = &s->tallies[leader];
             ++t->contacts;
+            ++t->near;
             const plumb_joint_desc *d = &pl_joint_items(&s->world->joints)[awake[i]].desc;
             t->barred |= pl_joint_bounces(d) || is_driven(d);
         }
@@ -151,7 +170,10 @@ static void tally_contacts(const search *s)
     for (uint32_t i = 0; i < s->contacts; ++i) {
         pl_apart_tally *t = &s->tallies[leader_of(s, &s->ends[i])];
         ++t->contacts;
+        t->near += pl_is_near(&m[i], NEAR);
         t->seeded |= is_seed(s, i);
+        t->uneven |= is_seed(s, i) && pl_are_uneven(s->world, s->ends[i].a, s->ends[i].b);
+        t->before |= (pl_pair_of(s->world, &m[i])->flags & PL_PAIR_EXACT) != 0;
         t->barred |= m[i].restitution > 0;
         t->crushed |= is_crushing(s, i);
         t->stirred |= s->ends[i].a < s->dynamic && s->ends[i].b < s->dynamic;
@@ -187,10 +209,47 @@ static void tally(const search *s)
     tally_bound(s);
 }
 
-static bool is_hard(const search *s, uint32_t leader)
+// Islands that may be hard, of one kind of seeds: how many there are of each size, those that were hard before first.
+typedef struct ranks {
+    uint32_t islands[2][PL_HARD_MOST + 1]; // by contacts that are near, and joints
+} ranks;
+
+static uint32_t *rank_of(const search *s, uint32_t leader, bool uneven, ranks *r)
 {
     const pl_apart_tally *t = &s->tallies[leader];
-    return t->seeded && !t->barred && !t->crushed && t->contacts <= PL_HARD_MOST;
+    const bool may = t->seeded && !t->barred && !t->crushed && t->uneven == uneven;
+    return may && t->contacts <= PL_HARD_MOST ? &r->islands[!t->before][t->near] : NULL;
+}
+
+// Islands of the kind, in the order of their ranks and then of their rows, while there is room for that many contacts and joints.
+static void choose_hard(const search *s, bool uneven, uint32_t room)
+{
+    ranks r = { 0 };
+    for (uint32_t row = 0; row < s->movable; ++row) {
+        uint32_t *rank = rank_of(s, row, uneven, &r);
+        if (rank != NULL) {
+            ++*rank;
+        }
+    }
+    for (uint32_t i = 0; i < 2; ++i) {
+        for (uint32_t size = 0; size <= PL_HARD_MOST; ++size) {
+            uint32_t *islands = &r.islands[i][size];
+            *islands = size * *islands <= room ? *islands : room / size;
+            room -= *islands * size;
+        }
+    }
+    for (uint32_t row = 0; row < s->movable; ++row) {
+        uint32_t *rank = rank_of(s, row, uneven, &r);
+        if (rank != NULL && *rank > 0) {
+            --*rank;
+            s->tallies[row].hard = true;
+        }
+    }
+}
+
+static bool is_hard(const search *s, uint32_t leader)
+{
+    return s->tallies[leader].hard;
 }
 
 static bool is_fine(const search *s, uint32_t leader)
@@ -236,7 +295,7 @@ static void list_hard_contacts(const search *s)
     }
 }
 
-// What is too large to be solved exactly is not asked about until the next look.
+// What is too large to be solved exactly, or finds no room, is not asked about until the next look.
 static void forget_large(const search *s)
 {
     bool kept = false;
@@ -292,6 +351,10 @@ static bool find(plumb_world *world)
         return false;
     }
     tally(&s);
+    if (seeded) {
+        choose_hard(&s, true, PL_HARD_MOST);
+        choose_hard(&s, false, PRESSED_MOST);
+    }
     pl_solver *solver = &world->solver;
     if (s.fine) {
         solver->fine_cluster = label(&s, is_fine, &solver->fine_islands);

@@ -162,8 +162,12 @@ typedef enum pl_motion_variant {
     PL_MOTION_VARIANTS
 } pl_motion_variant;
 
-// Contacts and joints of a hard island, at the most (apart.c).
+// Contacts and joints of a hard island, at the most, and of all of them where masses are uneven (apart.c).
 #define PL_HARD_MOST 96
+// Masses are uneven from this ratio on (apart.c, exact/hard.c).
+#define PL_UNEVEN 10.0
+// Whether one of two bodies that move is so much heavier.
+bool pl_are_uneven(const plumb_world *world, uint32_t row_a, uint32_t row_b);
 // Substeps that take the place of one in fine islands (apart.c).
 #define PL_FINER 4
 
