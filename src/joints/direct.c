@@ -89,7 +89,7 @@ static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep swe
     pl_direct_part *p = &s->parts[column];
     pl_one_take(s->context, s->columns[column].joint, &p->lone);
     for (int i = 0; i < p->lone.joint->rows.count; ++i) {
-        p->law[i] = pl_row_law_of(&p->lone, i, sweep, true);
+        pl_row_law_of(&p->lone, i, sweep, true, &p->law[i]);
         if (p->law[i].in_force) {
             p->at_bound[i] = i >= p->lone.joint->rows.block && begins_at_bound(p, i);
         }
@@ -115,16 +115,15 @@ static double across(const pl_direct_part *p, int i, const pl_direct_part *q, in
     const pl_row *r = &p->lone.joint->rows.row[i], *t = &q->lone.joint->rows.row[k];
     const pl_solver_body *of_p[2] = { p->lone.a, p->lone.b };
     const pl_solver_body *of_q[2] = { q->lone.a, q->lone.b };
-    const double jp[2][3] = { { (double)r->ax, (double)r->ay, (double)r->aw },
-                              { (double)r->bx, (double)r->by, (double)r->bw } };
-    const double jq[2][3] = { { (double)t->ax, (double)t->ay, (double)t->aw },
-                              { (double)t->bx, (double)t->by, (double)t->bw } };
+    const real *jp[2] = { &r->ax, &r->bx }, *jq[2] = { &t->ax, &t->bx };
     double sum = 0;
     for (int m = 0; m < 2; ++m) {
         for (int n = 0; n < 2; ++n) {
             if (of_p[m] == of_q[n]) {
-                sum += (double)of_p[m]->inv_mass * (jp[m][0] * jq[n][0] + jp[m][1] * jq[n][1]) +
-                       (double)of_p[m]->inv_inertia * jp[m][2] * jq[n][2];
+                const real *x = jp[m], *y = jq[n];
+                sum += (double)of_p[m]->inv_mass *
+                           ((double)x[0] * (double)y[0] + (double)x[1] * (double)y[1]) +
+                       (double)of_p[m]->inv_inertia * (double)x[2] * (double)y[2];
             }
         }
     }
@@ -155,9 +154,13 @@ static void assemble(const joint_system *s)
     }
 }
 
+// Blocks of hinges, two rows each, are most of what there is: what works on blocks is compiled for two rows as well. The bits are
+// the same.
+#define BLOCK_PART static inline __attribute__((always_inline))
+
 // Inverse of a positive definite block in place, by Gauss and Jordan. A pivot that rounding has eaten up is no
 // direction of its own.
-static void invert(double *d, const double *diagonal_of, int n)
+BLOCK_PART void invert_rows(double *d, const double *diagonal_of, int n)
 {
     for (int p = 0; p < n; ++p) {
         const double pivot = d[p * (PL_JOINT_ROWS + 1)];
@@ -178,8 +181,17 @@ static void invert(double *d, const double *diagonal_of, int n)
     }
 }
 
+static void invert(double *d, const double *diagonal_of, int n)
+{
+    if (n == 2) {
+        invert_rows(d, diagonal_of, 2);
+    } else {
+        invert_rows(d, diagonal_of, n);
+    }
+}
+
 // to -= x^T y, x of n rows and m columns, y of n rows and l columns.
-static void take_product(double *to, const double *x, const double *y, int n, int m, int l)
+BLOCK_PART void take_product_rows(double *to, const double *x, const double *y, int n, int m, int l)
 {
     for (int i = 0; i < m; ++i) {
         for (int k = 0; k < l; ++k) {
@@ -192,8 +204,17 @@ static void take_product(double *to, const double *x, const double *y, int n, in
     }
 }
 
+static void take_product(double *to, const double *x, const double *y, int n, int m, int l)
+{
+    if (n == 2 && m == 2 && l == 2) {
+        take_product_rows(to, x, y, 2, 2, 2);
+    } else {
+        take_product_rows(to, x, y, n, m, l);
+    }
+}
+
 // out = d x, n rows, m columns.
-static void multiply(double *out, const double *d, const double *x, int n, int m)
+BLOCK_PART void multiply_rows(double *out, const double *d, const double *x, int n, int m)
 {
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < m; ++k) {
@@ -203,6 +224,15 @@ static void multiply(double *out, const double *d, const double *x, int n, int m
             }
             out[i * PL_JOINT_ROWS + k] = sum;
         }
+    }
+}
+
+static void multiply(double *out, const double *d, const double *x, int n, int m)
+{
+    if (n == 2 && m == 2) {
+        multiply_rows(out, d, x, 2, 2);
+    } else {
+        multiply_rows(out, d, x, n, m);
     }
 }
 
@@ -233,6 +263,40 @@ static void eliminate(const joint_system *s, uint32_t c)
     }
 }
 
+// q -= b^T d p.
+BLOCK_PART void hand_down_rows(double *q, const double *b, const double *d, const double *p, int n,
+                               int m)
+{
+    for (int i = 0; i < n; ++i) {
+        double y = 0;
+        for (int k = 0; k < n; ++k) {
+            y += d[i * PL_JOINT_ROWS + k] * p[k];
+        }
+        for (int k = 0; k < m; ++k) {
+            q[k] -= b[i * PL_JOINT_ROWS + k] * y;
+        }
+    }
+}
+
+static void hand_down(double *q, const double *b, const double *d, const double *p, int n, int m)
+{
+    if (n == 2 && m == 2) {
+        hand_down_rows(q, b, d, p, 2, 2);
+    } else {
+        hand_down_rows(q, b, d, p, n, m);
+    }
+}
+
+// p -= b q.
+static void hand_up(double *p, const double *b, const double *q, int n, int m)
+{
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < m; ++k) {
+            p[i] -= b[i * PL_JOINT_ROWS + k] * q[k];
+        }
+    }
+}
+
 // x of the parts: right sides, then the solution.
 static void substitute(const joint_system *s)
 {
@@ -241,16 +305,7 @@ static void substitute(const joint_system *s)
         const pl_direct_part *p = &s->parts[c];
         for (uint32_t e = column->first; e < column->first + column->count; ++e) {
             pl_direct_part *q = &s->parts[s->entries[e]];
-            const double *b = beside(s, e), *d = diagonal(s, c);
-            for (int i = 0; i < p->count; ++i) {
-                double y = 0;
-                for (int k = 0; k < p->count; ++k) {
-                    y += d[i * PL_JOINT_ROWS + k] * p->x[k];
-                }
-                for (int k = 0; k < q->count; ++k) {
-                    q->x[k] -= b[i * PL_JOINT_ROWS + k] * y;
-                }
-            }
+            hand_down(q->x, beside(s, e), diagonal(s, c), p->x, p->count, q->count);
         }
     }
     for (uint32_t c = s->end; c-- > s->first;) {
@@ -259,11 +314,7 @@ static void substitute(const joint_system *s)
         double x[PL_JOINT_ROWS] = { 0 };
         for (uint32_t e = column->first; e < column->first + column->count; ++e) {
             const pl_direct_part *q = &s->parts[s->entries[e]];
-            for (int i = 0; i < p->count; ++i) {
-                for (int k = 0; k < q->count; ++k) {
-                    p->x[i] -= beside(s, e)[i * PL_JOINT_ROWS + k] * q->x[k];
-                }
-            }
+            hand_up(p->x, beside(s, e), q->x, p->count, q->count);
         }
         for (int i = 0; i < p->count; ++i) {
             for (int k = 0; k < p->count; ++k) {

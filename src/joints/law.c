@@ -25,35 +25,34 @@ static void aim_at_spring(const pl_lone *l, int i, bool halves, pl_row_law *out)
                   (halves ? out->give * (double)l->joint->half[i].lag : 0);
 }
 
-pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool halves)
+void pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool halves, pl_row_law *out)
 {
     const pl_joint *j = l->joint;
     const pl_row *r = &j->rows.row[i];
     // The bound of a vector: of each axis by itself.
     const real bound = i < j->rows.block ? plumb_min(r->most, j->rows.block_most) : r->most;
     const double most = (double)bound * (double)j->h, back = (double)r->error / (double)j->h;
-    pl_row_law law = { .in_force =
-                           r->type != PL_ROW_OFF &&
-                           (halves || r->spring == PL_SPRING_NONE || sweep == PL_SWEEP_PULL) &&
-                           !pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX) &&
-                           pl_one_coupling(r, r, l->a, l->b) > 0,
-                       .low = r->type == PL_ROW_LEAST ? 0 : -most,
-                       .high = most };
-    if (!law.in_force) {
-        return law;
+    out->in_force = r->type != PL_ROW_OFF &&
+                    (halves || r->spring == PL_SPRING_NONE || sweep == PL_SWEEP_PULL) &&
+                    !pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX) &&
+                    pl_one_coupling(r, r, l->a, l->b) > 0;
+    out->target = out->give = 0;
+    out->low = r->type == PL_ROW_LEAST ? 0 : -most;
+    out->high = most;
+    if (!out->in_force) {
+        return;
     }
     if (r->type == PL_ROW_DRIVE) {
-        law.target = (double)(halves ? pl_one_drive_speed(j, i) : r->speed);
+        out->target = (double)(halves ? pl_one_drive_speed(j, i) : r->speed);
     } else if (r->spring != PL_SPRING_NONE) {
-        aim_at_spring(l, i, halves, &law);
+        aim_at_spring(l, i, halves, out);
     } else if (i > 0 && i == j->struck) {
-        law.target = 0; // what others hold of the blow is lost, not won (DECISIONS.md)
+        out->target = 0; // what others hold of the blow is lost, not won (DECISIONS.md)
     } else if (r->type == PL_ROW_LEAST && r->error > 0) {
-        law.target = -back; // may close the gap
+        out->target = -back; // may close the gap
     } else {
-        law.target = sweep == PL_SWEEP_PULL ? -RECOVERY * back : 0;
+        out->target = sweep == PL_SWEEP_PULL ? -RECOVERY * back : 0;
     }
-    return law;
 }
 
 void pl_law_pulls(const pl_joint *j, const double impulse[PL_JOINT_ROWS], near_real pull[2])
