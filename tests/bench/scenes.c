@@ -223,7 +223,7 @@ static void build_compounds(struct scene *scene)
 }
 
 enum {
-    FIELDS = 4, // rows at the end that run only when they are named
+    NAMED = 13, // rows at the end that run only when they are named
     SETTLE =
         10 // steps of those that build what lasts: grids, the pair list, memory that is first touched
 };
@@ -243,7 +243,16 @@ const struct scene_row scene_rows[] = {
     { "field_1e4", SETTLE, 200, build_field_1e4, NULL, "182 small piles at rest" },
     { "field_1e5", SETTLE, 60, build_field_1e5, NULL, "1,800 small piles at rest" },
     { "field_1e6", SETTLE, 20, build_field_1e6, NULL, "18,200 small piles at rest" },
+    { "odd_columns", 0, 150, build_odd_columns, NULL, "boxes in columns of 40 that come down" },
+    { "odd_mixed", 0, 150, build_odd_mixed, NULL, "boxes, every fifth 50 times as heavy" },
+    { "odd_bounce", 0, 150, build_odd_bounce, NULL, "boxes of e = 0.3 in a heap" },
+    { "odd_balls", 0, 150, build_odd_balls, NULL, "discs of e = 0.8 in a heap" },
+    { "odd_gas", 0, 150, build_odd_gas, NULL, "elastic discs in a room" },
+    { "odd_tiles", SETTLE, 150, build_odd_tiles, NULL, "40,000 tiles of one body" },
+    { "odd_hills", SETTLE, 150, build_odd_hills, NULL, "discs roll over a long chain" },
+    { "odd_flails", 0, 150, build_odd_flails, NULL, "chains with heavy ends" },
+    { "odd_sizes", 0, 150, build_odd_sizes, NULL, "discs from 4 cm to 4 m" },
 };
 
 const int scene_row_count = (int)(sizeof scene_rows / sizeof scene_rows[0]);
-const int scene_default_count = (int)(sizeof scene_rows / sizeof scene_rows[0]) - FIELDS;
+const int scene_default_count = (int)(sizeof scene_rows / sizeof scene_rows[0]) - NAMED;

@@ -8,5 +8,14 @@ void build_tumbler(struct scene *scene);
 void build_joint_grid(struct scene *scene);
 void build_spinner(struct scene *scene);
 void build_rain(struct scene *scene);
+void build_odd_columns(struct scene *scene);
+void build_odd_mixed(struct scene *scene);
+void build_odd_bounce(struct scene *scene);
+void build_odd_balls(struct scene *scene);
+void build_odd_gas(struct scene *scene);
+void build_odd_tiles(struct scene *scene);
+void build_odd_hills(struct scene *scene);
+void build_odd_flails(struct scene *scene);
+void build_odd_sizes(struct scene *scene);
 
 #endif
