@@ -14,9 +14,9 @@
 //
 // An island is all that hangs together by contacts and joints, through kinematic bodies too, as in cluster.c, but found anew
 // in each step: it depends on the past by a few flags a pair. Hard ones have PL_HARD_MOST contacts and joints at the most, none of
-// which bounces or is driven. All of a step together have no more: a direct solution takes a hundred times as long as sweeps, and
-// no frame is to be missed for what nobody asked for. Those whose seeds are but pressed, between masses that sweeps can hold, have
-// PRESSED_MOST. Where there are more, those go on that were hard in the last step, then small ones come first.
+// which bounces or is driven. All of a step together have UNEVEN_MOST that are near: a direct solution takes a hundred times as long
+// as sweeps, and no frame is to be missed for what nobody asked for. Those whose seeds are but pressed, between masses that sweeps can
+// hold, have PRESSED_MOST. Where there are more, those go on that were hard in the last step, then small ones come first.
 //
 // Reads: manifolds, ends, joints, flags of pairs. Writes: labels of rows, hard contacts, flags of pairs, impulses of manifolds. Order:
 // behind clusters and seeds, before the graph; pl_fine_note behind the substeps. Cost: O(contacts + bodies) where there are seeds or
@@ -32,8 +32,9 @@
 #include <string.h>
 
 #define SMALL        512 // contacts and joints of a world with fine islands
-#define PRESSED_MOST 32  // contacts and joints of all islands with seeds of even masses alone
-#define FINEST       16  // substeps of a fine island
+#define UNEVEN_MOST  48 // contacts that are near, and joints, of all hard islands with uneven seeds
+#define PRESSED_MOST 32 // likewise, with seeds of even masses alone
+#define FINEST       16 // substeps of a fine island
 
 // [m] of a contact with what moves by itself: whoever bears that is crushed. What a lift carries or a plough pushes sinks in by less.
 #define CRUSHED ((near_real)5e-3)
@@ -352,7 +353,7 @@ static bool find(plumb_world *world)
     }
     tally(&s);
     if (seeded) {
-        choose_hard(&s, true, PL_HARD_MOST);
+        choose_hard(&s, true, UNEVEN_MOST);
         choose_hard(&s, false, PRESSED_MOST);
     }
     pl_solver *solver = &world->solver;

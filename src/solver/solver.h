@@ -162,7 +162,7 @@ typedef enum pl_motion_variant {
     PL_MOTION_VARIANTS
 } pl_motion_variant;
 
-// Contacts and joints of a hard island, at the most, and of all of them where masses are uneven (apart.c).
+// Contacts and joints of a hard island, at the most (apart.c).
 #define PL_HARD_MOST 96
 // Masses are uneven from this ratio on (apart.c, exact/hard.c).
 #define PL_UNEVEN 10.0
