@@ -53,7 +53,7 @@ typedef struct plumb_world_desc {
                                     ///< on one that is ten times lighter, 48 contacts and joints in all; where contacts have borne four
                                     ///< times the weight of a body for 16 steps and give way by 2 % of it, 32 more in all. Islands that
                                     ///< were solved so before go on, then small ones come first; the others are swept. Costs some 30 us a
-                                    ///< step for two bodies, 1 ms for 40 that settle, 3 ms at worst. How many: plumb_stats.exact_islands
+                                    ///< step for two bodies, 1 to 5 ms for 40. How many: plumb_stats.exact_islands
     bool no_fine_islands;           ///< Soft step: unless this is set, and while all contacts and joints that are awake are 512 at
                                     ///< the most, islands in which dynamic bodies touch one another take four substeps in place
                                     ///< of one (16 a step at the most), with contacts, not joints, as much stiffer, recovery from
