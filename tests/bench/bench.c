@@ -42,7 +42,7 @@ struct plan {
 
 static const char usage[] =
     "usage: bench [options]\n"
-    "  --scenes A,B      scenes in this order (default: all but field_*, odd_*; --list shows them)\n"
+    "  --scenes A,B      scenes in this order (default: the ten; --list shows all)\n"
     "  --engines X,Y     engines in this order, each name[:width][:solver][:tN]; ratios\n"
     "                    are against the first (default: all; --list shows them); t2: two threads\n"
     "  --repeats N       turns of every engine on a scene, 1..101 (default 5)\n"
