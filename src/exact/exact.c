@@ -66,13 +66,13 @@ void pl_exact_warm_start_joints(pl_substep *s)
     }
 }
 
-// velocity += share M^-1 J^T impulse.
-static void push_rows(const pl_exact_system *s, double *velocity, double share)
+// The velocities without the impulses of the substep before, which came with them.
+static void take_back(const pl_exact_system *s)
 {
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         const pl_exact_row *r = &s->rows[k];
         if (r->in_force) {
-            pl_exact_push(s, r, velocity, share * r->impulse);
+            pl_exact_push(s, r, s->velocity, -r->impulse);
         }
     }
 }
@@ -180,7 +180,7 @@ static void begin(const pl_exact_system *s, bool warm)
     const bool pulls = s->sweep == PL_SWEEP_PULL;
     if (pulls) {
         if (warm) {
-            push_rows(s, s->velocity, -1);
+            take_back(s);
         }
         copy(s, s->full, s->velocity);
         for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
@@ -240,7 +240,6 @@ static void slow_down(pl_exact_system *s)
         r->impulse = r->next = r->in_force ? r->before / 2 : 0;
         r->shift = r->gap = 0;
     }
-    push_rows(s, s->velocity, 1);
     s->recovery = 0;
     pl_exact_solve(s);
     s->recovery = 1;
@@ -265,7 +264,6 @@ static void solve_island(pl_exact_system *s, bool warm)
                 s->island->missed; // what could not be undone pushed beyond measure
     pl_exact_fill(s);
     begin(s, warm);
-    push_rows(s, s->velocity, 1);
     pl_exact_solve(s);
     if (s->sweep == PL_SWEEP_PULL && is_brisk(s)) {
         slow_down(s);
