@@ -8,6 +8,7 @@
 // like a damped spring of frequency w and damping ratio z, integrated implicitly (Catto, Soft
 // Constraints, GDC 2011): with a1 = 2 z + h w, a2 = h w a1, a3 = 1 / (1 + a2),
 //     bias = w / a1 s,  impulse change = -a2 a3 m (v_n + bias) - a3 lambda.
+// What was let approach arrives at s = 0 but for a rounding: the spring sets in by degrees before that.
 // Relaxing is the same without spring: it takes the push out of the velocities again.
 //
 // Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse, and is solved after
@@ -24,6 +25,10 @@
 #include "narrow/surface.h"
 #include "schema/effects.h"
 #include "solver/bundle.h"
+
+// [m] gap from which on a contact is rigid; it gives as its spring where bodies touch. DECISIONS.md: what jumps at 0 is decided by
+// rounding.
+#define RIGID_FROM ((near_real)1e-5)
 
 WIDE_INLINE void push_normal(const bundle *c, const point *p, body *a, body *b, vf impulse,
                              bool rotation)
@@ -97,16 +102,17 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
         s += p->rbn * b->da - p->ran * a->da;
         vn += p->rbn * b->w - p->ran * a->w;
     }
-    vm apart = s > zero;
     *speed = vn;
     *apart_by = s;
     *diagonal = p->kn;
     if (soft) {
-        *diagonal += sel(apart, zero, p->give);
+        const vm apart = s > zero;
+        const vf rigid = vclamp(s * splat(1 / RIGID_FROM), zero, splat(1));
+        *diagonal += (splat(1) - rigid) * p->give;
         return vn +
                sel(apart, s * splat(call->inv_h), vmax(s * c->bias_rate, splat(-call->push_speed)));
     }
-    return vn + sel(apart, s * splat(call->inv_h), zero);
+    return vn + vmax(s, zero) * splat(call->inv_h);
 }
 
 // A point that bore nothing and pushes now has been struck, at the speed v [m/s] that it had; so has, in the first

@@ -1,5 +1,6 @@
 -- copies_rotated.lua - a cluster is struck without gravity, four times: turned by 0, 90, 180 and 37 degrees.
 -- Fails: friction or clipping along the axes. Right: turned back they agree until rounding grows.
+-- (Gaps of 2 cm, up to which Plumb looks for contacts, would leave to rounding whether there is one.)
 scene { title = "Rotated copies", gravity = {0, 0}, duration = 1.5 }
 local turns, copies = { 0, 90, 180, 37 }, {}
 for k, degrees in ipairs(turns) do
@@ -10,7 +11,7 @@ for k, degrees in ipairs(turns) do
                                            velocity = {c * vx, s * vx}, density = 100 }
     end
     for i = 0, 3 do
-        for j = 0, 3 do put(box { 1, 1 }, i * 1.02, j * 1.02, 0) end
+        for j = 0, 3 do put(box { 1, 1 }, i * 1.05, j * 1.05, 0) end
     end
     put(circle { 0.5 }, -3, 1.7, 10)
 end

@@ -1,6 +1,6 @@
 -- soft_body.lua - two rings of capsules that springy welds hold together fall on one another. They are squeezed and spring back:
 -- no weld opens, and in the end each ring is as round as its weight lets it.
-scene { title = "Soft bodies", duration = 8 }
+scene { title = "Soft bodies", duration = 10 }
 camera { fit = {{-6, -1}, {6, 8}}, at = 1.35 }
 body { type = "static", box { 30, 1, at = {0, -0.5} }, box { 1, 6, at = {-5.5, 3} }, box { 1, 6, at = {5.5, 3} } }
 local n, R = 24, 1.2
