@@ -247,13 +247,26 @@ static uint32_t join(plumb_world *world, uint32_t first, uint32_t *run_count)
 
 //---- what they bear ------------------------------------------------------------------------------
 
-static const pl_run_load *load_of(const plumb_world *world, uint32_t mover, const pl_manifold *m)
+// Static bodies are one ground: none.
+static plumb_entity ground_body_of(const plumb_world *world, const run_contact *r)
 {
+    const uint32_t piece = ground_of(world, r);
+    return pl_piece_is_static(world, piece)
+               ? (plumb_entity){ 0 }
+               : world->bodies.entity[world->pieces.body[piece]].entity;
+}
+
+static const pl_run_load *load_of(const plumb_world *world, const run_contact *r,
+                                  const pl_manifold *m)
+{
+    const uint32_t mover = r->mover;
+    const plumb_entity ground = ground_body_of(world, r);
     const pl_internal_edges *s = &world->internal_edges;
     const pl_run_load *loads = s->old_loads.data;
     uint32_t i = ((const run_slot *)s->slots.data)[mover].load;
     for (; i != PL_NONE; i = loads[i].next) {
         bool same = loads[i].serial == world->pieces.serial[mover] &&
+                    plumb_entity_same(loads[i].ground, ground) &&
                     loads[i].nx * m->nx + loads[i].ny * m->ny > (real)0.99;
         if (same) {
             return &loads[i];
@@ -266,7 +279,7 @@ static const pl_run_load *load_of(const plumb_world *world, uint32_t mover, cons
 static void carry_load(plumb_world *world, const run_contact *r, pl_pair *pair, pl_manifold *m)
 {
     const pl_edge_pair *kept = (const pl_edge_pair *)world->internal_edges.pairs.data + r->index;
-    const pl_run_load *load = load_of(world, r->mover, m);
+    const pl_run_load *load = load_of(world, r, m);
     const uint32_t *feature = load != NULL ? load->feature : kept->feature;
     const near_real *normal = load != NULL ? load->normal : kept->normal;
     const near_real *tangent = load != NULL ? load->tangent : kept->tangent;
@@ -302,6 +315,7 @@ static void note_load(plumb_world *world, const run_contact *r, const pl_manifol
                            .serial = world->pieces.serial[r->mover],
                            .next = PL_NONE,
                            .pair = m->pair,
+                           .ground = ground_body_of(world, r),
                            .nx = m->nx,
                            .ny = m->ny };
     keep_load(load, pl_pair_of(world, m));

@@ -10,6 +10,7 @@
 // origin costs nothing. Cost: O(corners) a question, O(corners x corners) to rebuild.
 #include "internal_edges/view.h"
 
+#include "internal_edges/cone.h"
 #include "narrow/ahead.h"
 #include "narrow/surface.h"
 #include "world/wrap.h"
@@ -182,17 +183,39 @@ static bool lies_at(const pl_view *v, int k)
                     &v->side.corners[k]);
 }
 
+// [rad] between two grounds, what bears at a flat corner bears on the face beside it that leans no more than this against the normal:
+// where both sides left it to their neighbours, as their flat corners lie on one another, nobody had it.
+#define FLAT_CORNER_ANGLE 5e-3
+
+// The edge beside the flat corner k that has the normal; -1 if none.
+static int edge_at_flat_corner(const pl_view *v, int k)
+{
+    if (!pl_piece_has_internal_edges(&v->world->pieces, v->other)) {
+        return -1; // its neighbour has it
+    }
+    const int beside[2] = { k, k > 0 ? k - 1 : v->side.count - 1 };
+    for (int i = 0; i < 2; ++i) {
+        const pl_vertex *corner = &v->side.corners[beside[i]];
+        if (pl_directions_agree((double)corner->nx, (double)corner->ny, v->nx, v->ny,
+                                FLAT_CORNER_ANGLE)) {
+            return beside[i];
+        }
+    }
+    return -1;
+}
+
 bool pl_view_is_allowed(pl_view *v)
 {
     if ((v->side.corner_bits | v->side.edge_bits) == 0) {
         return true;
     }
-    int k = v->feature;
-    if (v->is_edge) {
-        return faces_open_part(v, k);
+    const int k = v->feature;
+    const bool is_flat = !v->is_edge && pl_side_corner_is_flat(&v->side, k);
+    const int edge = v->is_edge ? k : is_flat ? edge_at_flat_corner(v, k) : -1;
+    if (edge >= 0) {
+        return faces_open_part(v, edge);
     }
-    return !pl_side_corner_is_flat(&v->side, k) &&
-           pl_side_corner_allows(&v->side, k, v->nx, v->ny) && lies_at(v, k);
+    return !is_flat && pl_side_corner_allows(&v->side, k, v->nx, v->ny) && lies_at(v, k);
 }
 
 //---- setting it right ----------------------------------------------------------------------------

@@ -100,10 +100,13 @@ static void add_loads(pl_digest *digest, const plumb_world *world)
     for (uint32_t i = 0; i < world->internal_edges.load_count; ++i) {
         const pl_run_load *l = &loads[i];
         struct {
-            uint32_t mover, serial, feature[2];
+            uint32_t mover, serial;
+            plumb_entity ground;
+            uint32_t feature[2];
             real values[8];
         } kept = { l->mover,
                    l->serial,
+                   l->ground,
                    { l->feature[0], l->feature[1] },
                    { l->normal[0], l->normal[1], l->tangent[0], l->tangent[1], l->rolling, l->nx,
                      l->ny, 0 } };

@@ -57,9 +57,10 @@ typedef struct pl_edge_pair {
     uint32_t borne;    // PL_PAIR_BORNE if it was
 } pl_edge_pair;
 
-// What the owner of a run of flush faces bore in the last step, by the mover's piece (run.c).
+// What the owner of a run of flush faces bore in the last step, by the mover's piece and the ground (run.c).
 typedef struct pl_run_load {
     uint32_t mover, serial, next, pair;
+    plumb_entity ground; // the body; null: all static ones, which are one
     uint32_t feature[2];
     near_real normal[2], tangent[2];
     near_real rolling;
