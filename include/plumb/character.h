@@ -46,7 +46,8 @@ typedef struct plumb_character_desc {
     plumb_real acceleration;
     plumb_real air_acceleration; ///< [m/s^2] sideways in the air; 0: as `acceleration`
     plumb_real max_fall_speed;   ///< k [m/s] 0: no limit
-    plumb_real mass;             ///< k [kg] weight on dynamic bodies it stands on; 0 means 70
+    /// k [kg] weight on dynamic bodies it stands on; on what gives way three times what that weighs at most; 0 means 70
+    plumb_real mass;
     /// k [N] most force on dynamic bodies in its way; 0: 10 m/s^2 times `mass`
     plumb_real push_force;
     bool no_steps;       ///< k it does not climb steps

@@ -72,19 +72,58 @@ void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
     pl_shove_add(m->world, row, -force * t->nx, -force * t->ny, x, y);
 }
 
+// Times its own weight, at the place that is trod on: what a body bears of a character at once, and however it stands.
+#define FIRST_WEIGHT 3.0
+#define MOST_WEIGHT  30.0
+
+// [m/s] along gravity, [rad/s] what goes faster is not held by anything.
+#define STEADY_SPEED 1.0
+#define STEADY_TURN  1.5
+
+// [N] the weight that the body bears at a point (x, y), along gravity. It acts for a whole step, whatever comes of it meanwhile: on what is
+// light and gives way it would make any speed, and carry the character with it in the next. So it is no more than
+// FIRST_WEIGHT times the body's own and what stood against the last one, MOST_WEIGHT times at most: what bore may let go.
+static double weight_on(const pl_walker *m, uint32_t row, double x, double y, double g)
+{
+    pl_character *c = m->c;
+    const pl_bodies *b = &m->world->bodies;
+    const double dx = m->gravity_x / g, dy = m->gravity_y / g;
+    const pl_shift arm = pl_wrap_arm(m->world, row, x, y);
+    const double turn = arm.x * dy - arm.y * dx;
+    const double inverse = (double)b->inv_mass[row] + (double)b->inv_inertia[row] * turn * turn;
+    const double full = m->mass * g, mass = inverse > 0 ? 1 / inverse : m->mass;
+    const double v = ((double)b->vx[row] - (double)b->w[row] * arm.y) * dx +
+                     ((double)b->vy[row] + (double)b->w[row] * arm.x) * dy;
+    double borne = 0;
+    if (plumb_same(c->trod, b->entity[row]) && fabs(v) < STEADY_SPEED &&
+        fabs((double)b->w[row]) < STEADY_TURN) {
+        borne = (double)c->weight - mass * (v - (double)c->weight_speed) / m->dt;
+        borne = pl_least(pl_most(borne, 0), (double)c->weight);
+    }
+    const double own = mass * g;
+    const double weight = pl_least(pl_least(borne + FIRST_WEIGHT * own, MOST_WEIGHT * own), full);
+    c->trod = b->entity[row];
+    c->weight = (real)weight;
+    c->weight_speed = (real)v;
+    return weight;
+}
+
 void pl_walker_weigh(pl_walker *m)
 {
     pl_character *c = m->c;
     const pl_bodies *b = &m->world->bodies;
     uint32_t row = c->on_ground ? pl_body_row(m->world, c->ground.body) : PL_NONE;
     if (row == PL_NONE || b->type[row] != PLUMB_DYNAMIC) {
+        c->trod = (plumb_body)PLUMB_NULL_INIT;
         return;
     }
     m->world->characters.treads = true;
     // What sleeps under somebody who stands still bears him already.
-    bool rests = pl_row_slept(m->world, row) && c->speed == 0 && !m->landed;
-    if (!rests) {
-        pl_shove_add(m->world, row, m->mass * m->gravity_x, m->mass * m->gravity_y,
-                     (double)c->ground.point.x, (double)c->ground.point.y);
+    const double g = sqrt(m->gravity_x * m->gravity_x + m->gravity_y * m->gravity_y);
+    const bool rests = pl_row_slept(m->world, row) && c->speed == 0 && !m->landed;
+    if (!rests && g > 0) {
+        const double x = (double)c->ground.point.x, y = (double)c->ground.point.y;
+        const double share = weight_on(m, row, x, y, g) / g;
+        pl_shove_add(m->world, row, share * m->gravity_x, share * m->gravity_y, x, y);
     }
 }

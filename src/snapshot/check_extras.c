@@ -137,7 +137,8 @@ static bool check_walk(const pl_character *c)
     return c->desc.max_slope <= (real)1.5 && CHECK_REALS(c->desc.up) && CHECK_REALS(c->walk) &&
            CHECK_REALS(c->fly) && CHECK_REALS(c->jump) && CHECK_REALS(c->velocity) &&
            CHECK_REALS(c->speed) && c->rise - c->rise == 0 && c->step_top - c->step_top == 0 &&
-           CHECK_REALS(c->push_speed) && CHECK_REALS(c->body_velocity);
+           CHECK_REALS(c->push_speed) && CHECK_REALS(c->weight) && CHECK_REALS(c->weight_speed) &&
+           CHECK_REALS(c->body_velocity);
 }
 
 static bool check_character(const pl_suspect *s, const pl_character *c, uint32_t i)

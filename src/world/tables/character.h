@@ -48,6 +48,9 @@ typedef struct pl_character {
     // The dynamic body that it pushes: what stood against the push in the last step (push.c).
     plumb_body pushed;
     real push, push_speed; // [N], [m/s]
+    // The dynamic body that it weighs on, likewise.
+    plumb_body trod;
+    real weight, weight_speed; // [N], [m/s]
     plumb_character_hit hits[PLUMB_CHARACTER_HITS];
     int hit_count;
     // Before the step, in case it is refused.
