@@ -147,6 +147,11 @@ static plumb_result check_law(const plumb_world *world, const char *fn, plumb_la
 
 //---- laws ----------------------------------------------------------------------------------------
 
+static bool is_same(const plumb_law_desc *a, const plumb_law_desc *b)
+{
+    return true PL_LAW_DESC(PL_SAME_MEMBER);
+}
+
 static void copy(plumb_law_desc *to, const plumb_law_desc *from){ PL_LAW_DESC(PL_COPY_MEMBER) }
 
 plumb_law plumb_law_create(plumb_world *world, const plumb_law_desc *desc)
@@ -199,6 +204,9 @@ plumb_result plumb_law_set(plumb_world *world, plumb_law law, const plumb_law_de
     PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
     PL_TRY(check_desc(world, __func__, desc));
     pl_law *item = &pl_law_items(&world->laws)[row];
+    if (is_same(&item->desc, desc)) {
+        return PLUMB_OK; // nothing wakes
+    }
     pl_law_disturb(world, &item->desc);
     copy(&item->desc, desc);
     item->placed = false;

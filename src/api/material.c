@@ -113,6 +113,11 @@ plumb_result plumb_material_set(plumb_world *world, plumb_material material,
     uint32_t row;
     PL_TRY(pl_check_material(world, __func__, material, &row));
     PL_TRY(check_desc(world, __func__, desc));
+    plumb_material_desc old;
+    PL_TRY(plumb_material_get(world, material, &old));
+    if (pl_descs_agree(PLUMB_TABLE_MATERIAL, &old, desc)) {
+        return PLUMB_OK; // nothing wakes
+    }
     disturb_users(world, row); // those that float in what is a fluid no more, too
     pl_material_fill(world, row, desc);
     disturb_users(world, row);

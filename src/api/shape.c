@@ -119,6 +119,9 @@ plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
     uint32_t row;
     PL_TRY(pl_check_shape(world, __func__, shape, &first));
     PL_TRY(pl_check_material(world, __func__, material, &row));
+    if (world->pieces.material[first] == row) {
+        return PLUMB_OK; // nothing wakes
+    }
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         --world->materials.users[world->pieces.material[p]];
         if (world->pieces.material[p] != row) {

@@ -207,8 +207,13 @@ plumb_result plumb_softbody_set_node(plumb_world *world, plumb_softbody softbody
     PL_TRY(check_index(world, __func__, "node", node, pl_softbody_items(s)[row].nodes));
     PL_TRY(pl_softbody_check_node(world, __func__, value));
     const pl_softbody_place at = pl_softbody_place_of(s, row);
+    plumb_softbody_node *to = &pl_softbody_nodes(s)[at.node + (uint32_t)node];
+    _Static_assert(sizeof *to == 10 * sizeof(real), "a node is reals alone");
+    if (memcmp(to, value, sizeof *to) == 0) {
+        return PLUMB_OK; // nothing wakes
+    }
     pl_softbody_disturb(world, row);
-    pl_softbody_nodes(s)[at.node + (uint32_t)node] = *value;
+    *to = *value;
     pl_softbody_see_box(world, row, at);
     return PLUMB_OK;
 }
@@ -223,9 +228,14 @@ plumb_result plumb_softbody_set_edge(plumb_world *world, plumb_softbody softbody
     pl_softbodies *s = &world->softbodies;
     PL_TRY(check_index(world, __func__, "edge", edge, pl_softbody_items(s)[row].edges));
     PL_TRY(pl_softbody_check_edge(world, __func__, value));
-    pl_softbody_disturb(world, row);
     const pl_softbody_place at = pl_softbody_place_of(s, row);
     plumb_softbody_edge *to = &pl_softbody_edges(s)[at.edge + (uint32_t)edge];
+    if (to->flags == value->flags && to->length == value->length &&
+        to->stiffness == value->stiffness && to->damping == value->damping &&
+        to->break_strain == value->break_strain && to->yield_strain == value->yield_strain) {
+        return PLUMB_OK; // nothing wakes
+    }
+    pl_softbody_disturb(world, row);
     const bool cut = (value->flags & ~to->flags & PLUMB_EDGE_TORN) != 0;
     PUT(to, *value, flags), PUT(to, *value, length), PUT(to, *value, stiffness);
     PUT(to, *value, damping), PUT(to, *value, break_strain), PUT(to, *value, yield_strain);
@@ -249,6 +259,9 @@ plumb_result plumb_softbody_set_gas(plumb_world *world, plumb_softbody softbody,
     pl_softbody changed = *item;
     changed.pressure = pressure, changed.ambient = ambient;
     PL_TRY(pl_softbody_check_gas(world, __func__, &changed));
+    if (item->pressure == pressure && item->ambient == ambient) {
+        return PLUMB_OK; // nothing wakes
+    }
     pl_softbody_disturb(world, row);
     item->pressure = pressure, item->ambient = ambient;
     return PLUMB_OK;
@@ -281,8 +294,14 @@ plumb_result plumb_softbody_hold(plumb_world *world, plumb_softbody softbody, in
                            ((size_t)s->pin_count + 1) * sizeof(plumb_softbody_pin))) {
         return pl_fail_memory(world, __func__);
     }
-    pl_softbody_disturb(world, row);
     const uint32_t old = find_pin(s, row, node);
+    const plumb_softbody_pin *held =
+        old == PL_NONE ? NULL : &pl_softbody_pins(s)[pl_softbody_place_of(s, row).pin + old];
+    if (held != NULL && plumb_same(held->body, body) && held->point.x == point.x &&
+        held->point.y == point.y) {
+        return PLUMB_OK; // nothing wakes
+    }
+    pl_softbody_disturb(world, row);
     if (old != PL_NONE) {
         pl_softbody_drop_pin(world, row, old);
     }

@@ -31,6 +31,8 @@ plumb_result pl_check_within(const plumb_world *world, const char *function, con
 
 // Every property of a descriptor in its range, by the rows of src/schema; fields are told with `prefix`, "pair." or
 // "". E_NOT_FINITE, E_RANGE.
+// Whether two descriptors mean the same, whatever of them is left at 0.
+bool pl_descs_agree(plumb_property_table table, const void *a, const void *b);
 plumb_result pl_check_desc(const plumb_world *world, const char *function, const char *prefix,
                            plumb_property_table table, const void *desc);
 // One value of a setter; a 0 that means the default is not one of them. E_NOT_FINITE, E_RANGE.

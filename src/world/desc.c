@@ -126,3 +126,17 @@ bool pl_desc_is_sound(plumb_property_table table, const void *desc)
     }
     return sound;
 }
+
+bool pl_descs_agree(plumb_property_table table, const void *a, const void *b)
+{
+    int count;
+    const plumb_property *rows = plumb_properties(table, &count);
+    bool agree = true;
+    for (int i = 0; i < count && agree; ++i) {
+        for (int axis = 0; axis < 2 && agree; ++axis) {
+            agree =
+                plumb_property_read(&rows[i], a, axis) == plumb_property_read(&rows[i], b, axis);
+        }
+    }
+    return agree;
+}

@@ -33,4 +33,7 @@
 // A statement of `LIST(PL_COPY_MEMBER)`: *to becomes *from, and keeps its own padding.
 #define PL_COPY_MEMBER(path) to->path = from->path;
 
+// A term of `true LIST(PL_SAME_MEMBER)`: whether *a and *b are the same.
+#define PL_SAME_MEMBER(path) &&memcmp(&a->path, &b->path, sizeof a->path) == 0
+
 #endif

@@ -95,6 +95,11 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
     }
     uint64_t key = key_of(world, row_a, row_b);
     pl_material_pair *entry = find(world, key, &at);
+    if (entry == NULL
+            ? pair == NULL
+            : pair != NULL && pl_descs_agree(PLUMB_TABLE_MATERIAL_PAIR, &entry->value, pair)) {
+        return PLUMB_OK; // nothing wakes
+    }
     if (entry != NULL && pair != NULL) {
         entry->value = *pair;
     } else if (entry != NULL) {

@@ -86,6 +86,15 @@ CHANGE(same_impulse, plumb_joint_set_break_impulse(p->w, p->rod, 0))
 CHANGE(tell_strain, plumb_joint_set_event(p->w, p->rod, 5, 0))
 CHANGE(same_strain, plumb_joint_set_event(p->w, p->rod, 0, 0))
 CHANGE(set_wood, plumb_material_set(p->w, p->wood, &(plumb_material_desc){ .friction = R(0.1) }))
+// As it is already.
+static plumb_result keep_wood(place *p)
+{
+    plumb_material_desc desc;
+    assert_int_equal(plumb_material_get(p->w, p->wood, &desc), PLUMB_OK);
+    assert_int_equal(plumb_material_set(p->w, p->wood, &desc), PLUMB_OK);
+    return plumb_material_pair_set(p->w, p->wood, p->wood, NULL);
+}
+
 CHANGE(pair_wood, plumb_material_pair_set(p->w, p->wood, p->wood, &(plumb_material_pair){ 0 }))
 CHANGE(no_sleeping, plumb_world_set_sleep(p->w, false, 0, 0))
 CHANGE(thresholds, plumb_world_set_sleep(p->w, true, R(0.1), 1))
@@ -256,6 +265,7 @@ static const waker wakers[] = {
     ROW(tell_strain, HUNG),
     ROW(same_strain, 0),
     ROW(set_wood, ALL),
+    ROW(keep_wood, 0),
     ROW(pair_wood, ALL),
     ROW(no_sleeping, ALL),
     ROW(thresholds, 0),

@@ -470,6 +470,20 @@ static void what_does_not_concern_it_lets_it_sleep(void **state)
         place p = make_place((kind)k, 700 + k, false);
         assert_true(until_asleep(&p, 40) > 0);
         const plumb_softbody_desc d = look(&p);
+        // What is there already.
+        plumb_softbody_set_node(p.w, p.soft, 2, &d.nodes[2]);
+        if (d.edge_count > 2) {
+            plumb_softbody_set_edge(p.w, p.soft, 2, &d.edges[2]);
+        }
+        if (d.pressure > 0) {
+            plumb_softbody_set_gas(p.w, p.soft, d.pressure, d.ambient);
+        }
+        for (int i = 0; i < d.pin_count; ++i) {
+            const plumb_softbody_pin pin = d.pins[i];
+            plumb_softbody_hold(p.w, p.soft, (int)pin.node, pin.body, pin.point);
+        }
+        sim_step(p.w, dt);
+        assert_true(is_asleep(&p));
         plumb_real right = -100, top = -100;
         for (int i = 0; i < d.node_count; ++i) {
             right = d.nodes[i].position.x > right ? d.nodes[i].position.x : right;
