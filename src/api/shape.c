@@ -188,7 +188,7 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
     pl_pieces_move_behind(world, pl_shape_piece(world, shape), first);
     pl_pieces_remove(world, first);
     pl_mass_revise(world, row);
-    pl_sleep_disturb(world, row);
+    pl_sleep_disturb_shape(world, pl_shape_piece(world, shape));
     return PLUMB_OK;
 }
 

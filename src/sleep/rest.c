@@ -123,10 +123,16 @@ void pl_rest_around_changed(plumb_world *world, uint32_t pair_count)
     if (world->sleep.changed_step != world->step_count + 1) {
         return;
     }
+    uint8_t *flags = world->pieces.flags;
     for (uint32_t i = 0; i < pair_count; ++i) {
         uint32_t r = pairs[i].body_a, q = pairs[i].body_b;
-        if (pl_is_linked(&pairs[i]) && (b->changed_step[r] == now || b->changed_step[q] == now)) {
+        if (pl_is_linked(&pairs[i]) &&
+            (b->changed_step[r] == now || b->changed_step[q] == now ||
+             ((flags[pairs[i].a] | flags[pairs[i].b]) & PL_PIECE_CHANGED) != 0)) {
             b->rest_time[r] = b->rest_time[q] = PL_NOT_RESTING;
         }
+    }
+    for (uint32_t p = 0; p < world->pieces.table.count; ++p) {
+        flags[p] &= (uint8_t)~PL_PIECE_CHANGED;
     }
 }

@@ -130,6 +130,7 @@ typedef struct pl_hint {
 #define PL_PIECE_ASLEEP   8u  // of a sleeping body: it is in the list and grid of resting pieces
 #define PL_PIECE_PLACED   16u // static, and new to what sleeps here
 #define PL_PIECE_WAVES    64u // of water whose surface has waves
+#define PL_PIECE_CHANGED  128u // static, and changed in itself since the last step that looked
 
 #define PL_NONE UINT32_MAX
 #define PL_OUT  (UINT32_MAX - 1) // pieces.moving: of a disabled body, in no grid

@@ -92,7 +92,12 @@ void pl_sleep_disturb_piece(plumb_world *world, uint32_t piece)
     if (world->bodies.type[row] == PLUMB_DYNAMIC) {
         pl_sleep_disturb(world, row);
     } else {
-        note_immovable(world, row);
+        if (world->bodies.type[row] == PLUMB_STATIC) { // the others of its body are as they were
+            world->pieces.flags[piece] |= PL_PIECE_CHANGED;
+            world->sleep.changed_step = world->step_count + 1;
+        } else {
+            note_immovable(world, row);
+        }
         wake_contacts(world, piece);
         pl_sleep_wake_swimmers(world, piece);
         pl_softbodies_stir_near(world, piece);

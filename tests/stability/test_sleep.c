@@ -572,6 +572,53 @@ static void widths_sleep_and_wake_alike(void **state)
     }
 }
 
+// Crates rest on one end of a static body while at the other, 100 m away, its tiles are made, changed and taken away: they fall asleep as
+// soon as if nothing was done. What lies on a tile that is changed does not rest.
+static void far_tiles_let_sleep(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 6; ++kind) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        const plumb_material m = sim_material(w, 0.5, 0);
+        const plumb_body ground = sim_floor(w, m);
+        plumb_shape tiles[40];
+        for (int i = 0; i < 40; ++i) {
+            const plumb_shape_desc tile = { .kind = PLUMB_BOX,
+                                            .half = sim_vec(0.5, 0.5),
+                                            .center = sim_vec(100 + 2 * i, 5) };
+            tiles[i] = plumb_shape_create(w, ground, &tile);
+        }
+        for (int i = 0; i < 3; ++i) {
+            sim_crate(w, 3 * i, 0.5, 0.5, 0.5, m);
+        }
+        const plumb_body high = sim_crate(w, 100 + 2 * 39, 6, 0.5, 0.5, m); // on the last tile
+        for (int step = 0; step < 90; ++step) {
+            const plumb_shape tile = tiles[step / 3];
+            const plumb_shape_desc round = { .kind = PLUMB_CIRCLE,
+                                             .radius = (plumb_real)0.4,
+                                             .center = sim_vec(100 + 2 * (step / 3), 5) };
+            if (step % 3 == 0 && kind == 0) {
+                plumb_shape_create(w, ground, &round);
+            } else if (step % 3 == 0 && kind == 1) {
+                plumb_shape_destroy(w, tile);
+            } else if (step % 3 == 0 && kind == 2) {
+                plumb_shape_set_filter(w, tile, (plumb_filter){ .category = 4 });
+            } else if (step % 3 == 0 && kind == 3) {
+                plumb_shape_set_sensor(w, tile, true);
+            } else if (step % 3 == 0 && kind == 4) {
+                plumb_shape_set_geometry(w, tile, &round);
+            } else if (kind == 5) { // by turns, so that it is changed each time
+                plumb_shape_set_filter(w, tiles[39],
+                                       (plumb_filter){ .category = step % 2 == 0 ? 2 : 3 });
+            }
+            sim_step(w, 1 / 60.0);
+        }
+        assert_int_equal(plumb_world_stats(w).asleep_count, kind == 5 ? 3 : 4);
+        assert_int_equal(plumb_body_is_awake(w, high), kind == 5);
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -590,6 +637,7 @@ int main(void)
         cmocka_unit_test(who_is_about_to_sleep_falls_too),
         cmocka_unit_test(waking_does_not_shake),
         cmocka_unit_test(widths_sleep_and_wake_alike),
+        cmocka_unit_test(far_tiles_let_sleep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
