@@ -10,6 +10,7 @@
 // Cost: as a kinematic character that stands.
 #include "character/walker.h"
 #include "narrow/surface.h"
+#include "query/query.h"
 #include "world/island.h"
 #include "world/rows.h"
 #include "world/wrap.h"
@@ -64,16 +65,28 @@ static void look_for_ground(pl_walker *m)
                                              .spin = (real)w };
 }
 
-// A force on the character, and the opposite one on what it stands on.
+// The opposite of a force on the character acts on what it stands on. It acts for a whole step, whatever comes of it meanwhile: what is
+// lighter than the character is not made faster by it than the character.
+static void act_back(pl_walker *m, double fx, double fy)
+{
+    const pl_ground *g = &m->c->ground;
+    const pl_bodies *b = &m->world->bodies;
+    const double x = (double)g->point.x, y = (double)g->point.y, force = sqrt(fx * fx + fy * fy);
+    const uint32_t row = pl_body_row(m->world, g->body);
+    if (row != PL_NONE && b->type[row] == PLUMB_DYNAMIC && force > 0) {
+        const double mass = pl_walker_mass_at(m->world, row, x, y, fx / force, fy / force);
+        const double share = pl_least(mass / (double)b->mass[m->row], 1);
+        pl_shove_add(m->world, row, -share * fx, -share * fy, x, y);
+    }
+}
+
 static void act(pl_walker *m, double fx, double fy, bool on_ground)
 {
-    plumb_world *world = m->world;
-    const pl_ground *g = &m->c->ground;
-    const pl_bodies *b = &world->bodies;
-    pl_shove_add(world, m->row, fx, fy, (double)b->center_x[m->row], (double)b->center_y[m->row]);
-    uint32_t row = on_ground ? pl_body_row(world, g->body) : PL_NONE;
-    if (row != PL_NONE && b->type[row] == PLUMB_DYNAMIC) {
-        pl_shove_add(world, row, -fx, -fy, (double)g->point.x, (double)g->point.y);
+    const pl_bodies *b = &m->world->bodies;
+    pl_shove_add(m->world, m->row, fx, fy, (double)b->center_x[m->row],
+                 (double)b->center_y[m->row]);
+    if (on_ground) {
+        act_back(m, fx, fy);
     }
 }
 
@@ -87,12 +100,8 @@ static void jump(pl_walker *m)
     pl_walker_rouse(m->world, m->row); // a velocity alone wakes nobody
     b->vx[m->row] += (real)(gain * m->ux);
     b->vy[m->row] += (real)(gain * m->uy);
-    uint32_t row = pl_body_row(m->world, c->ground.body);
-    if (row != PL_NONE && b->type[row] == PLUMB_DYNAMIC) {
-        double force = -gain * (double)b->mass[m->row] / m->dt;
-        pl_shove_add(m->world, row, force * m->ux, force * m->uy, (double)c->ground.point.x,
-                     (double)c->ground.point.y);
-    }
+    const double force = gain * (double)b->mass[m->row] / m->dt;
+    act_back(m, force * m->ux, force * m->uy);
     c->on_ground = false;
     c->ground = (pl_ground){ 0 };
 }

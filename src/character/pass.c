@@ -56,6 +56,9 @@ static plumb_vec2 run_of_belt(const pl_walker *m)
     return plumb_v2(way * g->normal.y, -way * g->normal.x);
 }
 
+// [rad/s] a loose body that turns faster rolls away under a character and carries nobody: at no cost to itself it would make any speed.
+#define MOST_TURN 3.0
+
 // [m] by which what it stands on carries it in this step.
 static plumb_vec2 carry_of(const pl_walker *m)
 {
@@ -65,7 +68,8 @@ static plumb_vec2 carry_of(const pl_walker *m)
     }
     uint32_t row = pl_body_row(m->world, c->ground.body);
     const pl_bodies *b = &m->world->bodies;
-    if (b->vx[row] == 0 && b->vy[row] == 0 && b->w[row] == 0) {
+    const bool rolls = b->type[row] == PLUMB_DYNAMIC && fabs((double)b->w[row]) > MOST_TURN;
+    if ((b->vx[row] == 0 && b->vy[row] == 0 && b->w[row] == 0) || rolls) {
         return run_of_belt(m);
     }
     const pl_pose *pose = &pl_poses(m->world)[row];

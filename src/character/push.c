@@ -40,6 +40,18 @@ void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double
     b->torque[row] += (real)(arm.x * fy - arm.y * fx);
 }
 
+#define IMMOVABLE 1e30 // [kg]
+
+double pl_walker_mass_at(const plumb_world *world, uint32_t row, double px, double py, double dx,
+                         double dy)
+{
+    const pl_bodies *b = &world->bodies;
+    const pl_shift arm = pl_wrap_arm(world, row, px, py);
+    const double turn = arm.x * dy - arm.y * dx;
+    const double inverse = (double)b->inv_mass[row] + (double)b->inv_inertia[row] * turn * turn;
+    return inverse > 0 ? 1 / inverse : IMMOVABLE;
+}
+
 void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
 {
     pl_character *c = m->c;
@@ -52,12 +64,10 @@ void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
     pl_walker_touch_point(m, t, &x, &y);
     x += (double)m->start.x, y += (double)m->start.y;
     pl_shift arm = pl_wrap_arm(m->world, row, x, y);
-    double rx = arm.x, ry = arm.y;
-    double turn = rx * t->ny - ry * t->nx;
-    double inverse = (double)b->inv_mass[row] + (double)b->inv_inertia[row] * turn * turn;
-    double vx = (double)b->vx[row] - (double)b->w[row] * ry;
-    double vy = (double)b->vy[row] + (double)b->w[row] * rx;
-    double v = -(vx * t->nx + vy * t->ny), mass = 1 / inverse;
+    double vx = (double)b->vx[row] - (double)b->w[row] * arm.y;
+    double vy = (double)b->vy[row] + (double)b->w[row] * arm.x;
+    double v = -(vx * t->nx + vy * t->ny);
+    const double mass = pl_walker_mass_at(m->world, row, x, y, t->nx, t->ny);
     double resistance = 0;
     if (plumb_same(c->pushed, b->entity[row])) {
         resistance = (double)c->push - mass * (v - (double)c->push_speed) / m->dt;
@@ -89,9 +99,7 @@ static double weight_on(const pl_walker *m, uint32_t row, double x, double y, do
     const pl_bodies *b = &m->world->bodies;
     const double dx = m->gravity_x / g, dy = m->gravity_y / g;
     const pl_shift arm = pl_wrap_arm(m->world, row, x, y);
-    const double turn = arm.x * dy - arm.y * dx;
-    const double inverse = (double)b->inv_mass[row] + (double)b->inv_inertia[row] * turn * turn;
-    const double full = m->mass * g, mass = inverse > 0 ? 1 / inverse : m->mass;
+    const double full = m->mass * g, mass = pl_walker_mass_at(m->world, row, x, y, dx, dy);
     const double v = ((double)b->vx[row] - (double)b->w[row] * arm.y) * dx +
                      ((double)b->vy[row] + (double)b->w[row] * arm.x) * dy;
     double borne = 0;

@@ -121,6 +121,9 @@ void pl_walker_weigh(pl_walker *m);
 // Wakes the body of a row in this step, if it sleeps.
 void pl_walker_rouse(plumb_world *world, uint32_t row);
 // Adds a force at a point [m, world] of a dynamic row, so that it can be undone. Room is reserved.
+// [kg] effective mass of a body at a point, along a direction; 1e30 where it cannot be moved.
+double pl_walker_mass_at(const plumb_world *world, uint32_t row, double px, double py, double dx,
+                         double dy);
 void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py);
 
 //---- dynamic.c: forces on a dynamic character. False when out of memory.

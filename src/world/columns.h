@@ -123,13 +123,13 @@ typedef struct pl_hint {
     X(uint32_t, users, ANY) /* pieces that name it */
 // clang-format on
 
-#define PL_PIECE_SENSOR   1u  // of a sensor
-#define PL_PIECE_PART     2u  // of a shape of several pieces
-#define PL_PIECE_FILTERED 4u  // its filter is not {0}
-#define PL_PIECE_ONE_WAY  32u // it holds on one side only
-#define PL_PIECE_ASLEEP   8u  // of a sleeping body: it is in the list and grid of resting pieces
-#define PL_PIECE_PLACED   16u // static, and new to what sleeps here
-#define PL_PIECE_WAVES    64u // of water whose surface has waves
+#define PL_PIECE_SENSOR   1u   // of a sensor
+#define PL_PIECE_PART     2u   // of a shape of several pieces
+#define PL_PIECE_FILTERED 4u   // its filter is not {0}
+#define PL_PIECE_ONE_WAY  32u  // it holds on one side only
+#define PL_PIECE_ASLEEP   8u   // of a sleeping body: it is in the list and grid of resting pieces
+#define PL_PIECE_PLACED   16u  // static, and new to what sleeps here
+#define PL_PIECE_WAVES    64u  // of water whose surface has waves
 #define PL_PIECE_CHANGED  128u // static, and changed in itself since the last step that looked
 
 #define PL_NONE UINT32_MAX
