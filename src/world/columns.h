@@ -102,7 +102,7 @@ typedef struct pl_hint {
     X(uint32_t, material, ANY) /* material row */                                                   \
     X(uint64_t, category, ANY) X(uint64_t, mask, ANY) /* filter, resolved: mask 0 meets nothing */  \
     X(int32_t, group, ANY)                                                                          \
-    X(uint8_t, flags, UP_TO(127)) /* PL_PIECE_... */                                                 \
+    X(uint8_t, flags, ANY) /* PL_PIECE_... */                                                        \
     X(real, friction, POSITIVE) X(real, restitution, POSITIVE) /* copied from the material */       \
     X(real, one_way_x, ANY) X(real, one_way_y, ANY) /* unit, in the body's frame; 0: solid from all sides */ \
     X(real, one_way_cos, ANY) X(real, one_way_angle, ANY) /* of normals that hold, about the direction */ \
