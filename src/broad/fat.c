@@ -98,22 +98,11 @@ static void list_left(plumb_world *world)
     }
 }
 
-// [m] by how far turning takes a point of the piece. Contacts do without, but a sensor tells of where a sword's tip is in the end.
-static real turned_by(const plumb_world *world, uint32_t piece, const pl_pose *pose, real dt)
-{
-    if (world->sensor_pieces == 0) {
-        return 0;
-    }
-    const real turn = plumb_min(plumb_abs(world->bodies.w[world->pieces.body[piece]]) * dt, 2);
-    return turn * (world->pieces.core[piece].reach + plumb_abs(pose->dx) + plumb_abs(pose->dy));
-}
-
 // A piece must meet its partner within the step in which they touch.
 static pl_box needed_box(const plumb_world *world, uint32_t piece, const pl_box *tight, real dt)
 {
     const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
-    const real margin = PL_SPECULATIVE / 2 + turned_by(world, piece, pose, dt);
-    return swept(widened(*tight, margin), pose->vx * dt, pose->vy * dt);
+    return swept(widened(*tight, PL_SPECULATIVE / 2), pose->vx * dt, pose->vy * dt);
 }
 
 // Fewer pieces than this are not worth a thread.

@@ -106,22 +106,11 @@ WIDE_INLINE sides widened(const sides *box, vf margin)
                       box->side[3] + margin } };
 }
 
-// [m] as turned_by() of fat.c.
-WIDE_INLINE vf turned_by(const pieces *p, const plumb_world *world, near_real dt)
-{
-    near_real turns[PL_WIDTH];
-    for (int i = 0; i < PL_WIDTH; ++i) {
-        turns[i] = world->bodies.w[world->pieces.body[p->slot[i]]];
-    }
-    const vf turn = vmin(vabs(load(turns)) * splat(dt), splat(2));
-    return turn * (p->core[7] + vabs(p->pose[4]) + vabs(p->pose[5]));
-}
-
 // A piece must meet its partner within the step in which they touch.
-WIDE_INLINE sides needed_boxes(const sides *tight, vf turned, vf dx, vf dy)
+WIDE_INLINE sides needed_boxes(const sides *tight, vf dx, vf dy)
 {
     const vf zero = splat(0);
-    sides out = widened(tight, splat(PL_SPECULATIVE / 2) + turned);
+    sides out = widened(tight, splat(PL_SPECULATIVE / 2));
     out.side[0] += sel(dx < zero, dx, zero);
     out.side[1] += sel(dy < zero, dy, zero);
     out.side[2] += sel(dx > zero, dx, zero);
@@ -153,8 +142,7 @@ uint32_t PL_WIDE_NAME(pl_fat_refresh)(const plumb_world *world, uint32_t first, 
         vf held[4];
         gather4(held, filed, 0);
         const vf dx = p.pose[6] * splat(dt), dy = p.pose[7] * splat(dt);
-        const vf turned = world->sensor_pieces == 0 ? splat(0) : turned_by(&p, world, dt);
-        const sides tight = tight_boxes(&p, world), needed = needed_boxes(&tight, turned, dx, dy);
+        const sides tight = tight_boxes(&p, world), needed = needed_boxes(&tight, dx, dy);
         const vm holds = (held[0] <= needed.side[0]) & (held[1] <= needed.side[1]) &
                          (held[2] >= needed.side[2]) & (held[3] >= needed.side[3]);
         if (!any(~holds)) {

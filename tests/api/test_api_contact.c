@@ -370,38 +370,6 @@ static void nothing_is_known_of_no_world(void **state)
     assert_int_equal(plumb_shape_set_sensor(NULL, NO_SHAPE, true), PLUMB_E_NULL);
 }
 
-// A tip 2 m from the axis of what turns is seen in the step in which it comes to lie in a sensor.
-static void sensors_see_what_turns(void **state)
-{
-    (void)state;
-    const plumb_real pi = (plumb_real)3.14159265358979;
-    for (int i = 0; i < 60; ++i) {
-        const plumb_real rate = (plumb_real)(1 + i), start = pi * (plumb_real)i / 30;
-        plumb_world *w = NULL;
-        plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w);
-        const plumb_body sword =
-            plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .angle = start });
-        plumb_shape_create(w, sword,
-                           &(plumb_shape_desc){ .kind = PLUMB_CIRCLE,
-                                                .radius = (plumb_real)0.1,
-                                                .center = { 2, 0 } });
-        const plumb_rot end = plumb_rot_make(start + 3 * rate / 60);
-        const plumb_body target = plumb_body_create(
-            w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 2 * end.c, 2 * end.s } });
-        const plumb_shape sensor = plumb_shape_create(
-            w, target,
-            &(plumb_shape_desc){
-                .kind = PLUMB_CIRCLE, .radius = (plumb_real)0.05, .sensor = true });
-        plumb_body_set_angular_velocity(w, sword, rate);
-        for (int step = 0; step < 3; ++step) {
-            plumb_world_step(w, (plumb_real)1 / 60);
-        }
-        plumb_shape seen[4];
-        assert_int_equal(plumb_shape_overlaps(w, sensor, seen, 4), 1);
-        plumb_world_destroy(w);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,7 +383,6 @@ int main(void)
         cmocka_unit_test(a_joint_of_a_chain_is_hit_once),
         API_TEST(what_is_locked_in_a_step),
         cmocka_unit_test(nothing_is_known_of_no_world),
-        cmocka_unit_test(sensors_see_what_turns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
