@@ -124,9 +124,7 @@ plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
     }
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         --world->materials.users[world->pieces.material[p]];
-        if (world->pieces.material[p] != row) {
-            pl_sleep_disturb_piece(world, p);
-        }
+        pl_sleep_disturb_piece(world, p);
     }
     set_material(world, first, row);
     for (uint32_t p = first; p != PL_NONE && world->materials.fluid[row];

@@ -52,6 +52,17 @@ double pl_walker_mass_at(const plumb_world *world, uint32_t row, double px, doub
     return inverse > 0 ? 1 / inverse : IMMOVABLE;
 }
 
+// [m/s] of the body's point (px, py) along (dx, dy).
+static double speed_at(const plumb_world *world, uint32_t row, double px, double py, double dx,
+                       double dy)
+{
+    const pl_bodies *b = &world->bodies;
+    const pl_shift arm = pl_wrap_arm(world, row, px, py);
+    const double vx = (double)b->vx[row] - (double)b->w[row] * arm.y;
+    const double vy = (double)b->vy[row] + (double)b->w[row] * arm.x;
+    return vx * dx + vy * dy;
+}
+
 void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
 {
     pl_character *c = m->c;
@@ -63,10 +74,7 @@ void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
     double x, y;
     pl_walker_touch_point(m, t, &x, &y);
     x += (double)m->start.x, y += (double)m->start.y;
-    pl_shift arm = pl_wrap_arm(m->world, row, x, y);
-    double vx = (double)b->vx[row] - (double)b->w[row] * arm.y;
-    double vy = (double)b->vy[row] + (double)b->w[row] * arm.x;
-    double v = -(vx * t->nx + vy * t->ny);
+    const double v = speed_at(m->world, row, x, y, -t->nx, -t->ny);
     const double mass = pl_walker_mass_at(m->world, row, x, y, t->nx, t->ny);
     double resistance = 0;
     if (plumb_same(c->pushed, b->entity[row])) {
@@ -98,10 +106,8 @@ static double weight_on(const pl_walker *m, uint32_t row, double x, double y, do
     pl_character *c = m->c;
     const pl_bodies *b = &m->world->bodies;
     const double dx = m->gravity_x / g, dy = m->gravity_y / g;
-    const pl_shift arm = pl_wrap_arm(m->world, row, x, y);
     const double full = m->mass * g, mass = pl_walker_mass_at(m->world, row, x, y, dx, dy);
-    const double v = ((double)b->vx[row] - (double)b->w[row] * arm.y) * dx +
-                     ((double)b->vy[row] + (double)b->w[row] * arm.x) * dy;
+    const double v = speed_at(m->world, row, x, y, dx, dy);
     double borne = 0;
     if (plumb_same(c->trod, b->entity[row]) && fabs(v) < STEADY_SPEED &&
         fabs((double)b->w[row]) < STEADY_TURN) {

@@ -35,6 +35,16 @@ void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velo
     }
 }
 
+void pl_exact_push_all(const pl_exact_system *s, double share)
+{
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        if (r->in_force) {
+            pl_exact_push(s, r, s->velocity, share * r->impulse);
+        }
+    }
+}
+
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity)
 {
     double sum = 0;

@@ -66,17 +66,6 @@ void pl_exact_warm_start_joints(pl_substep *s)
     }
 }
 
-// The velocities without the impulses of the substep before, which came with them.
-static void take_back(const pl_exact_system *s)
-{
-    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
-        const pl_exact_row *r = &s->rows[k];
-        if (r->in_force) {
-            pl_exact_push(s, r, s->velocity, -r->impulse);
-        }
-    }
-}
-
 // A body of the joint or contact swings faster about it, for its pull, than the substep can follow.
 static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
 {
@@ -180,7 +169,7 @@ static void begin(const pl_exact_system *s, bool warm)
     const bool pulls = s->sweep == PL_SWEEP_PULL;
     if (pulls) {
         if (warm) {
-            take_back(s);
+            pl_exact_push_all(s, -1); // they came with the impulses of the substep before
         }
         copy(s, s->full, s->velocity);
         for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {

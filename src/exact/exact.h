@@ -138,11 +138,12 @@ typedef struct pl_exact_newton {
 } pl_exact_newton;
 
 // Of a row: J v at such velocities; what it adds up at those of the moment, of which its rounding is a share;
-// velocity += M^-1 J^T impulse (evaluate.c).
+// velocity += M^-1 J^T impulse; a share of the impulses of all rows to the velocities of the moment (evaluate.c).
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity);
 double pl_exact_sum(const pl_exact_system *s, const pl_exact_row *r);
 void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velocity,
                    double impulse);
+void pl_exact_push_all(const pl_exact_system *s, double share);
 // F into `change`: returns its size, by momentum (evaluate.c).
 double pl_exact_evaluate(pl_exact_newton *n);
 

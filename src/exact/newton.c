@@ -324,17 +324,6 @@ static void give_in(pl_exact_newton *n)
     }
 }
 
-// Where the solution begins: the impulses that are known, at the velocities.
-static void push_rows(const pl_exact_system *s)
-{
-    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
-        const pl_exact_row *r = &s->rows[k];
-        if (r->in_force) {
-            pl_exact_push(s, r, s->velocity, r->impulse);
-        }
-    }
-}
-
 void pl_exact_solve(pl_exact_system *s)
 {
     const bool pulls = s->sweep == PL_SWEEP_PULL;
@@ -344,7 +333,7 @@ void pl_exact_solve(pl_exact_system *s)
         pl_exact_bend(s, 0); // what the arcs of the start ask for is to be undone, too
     }
     find_scale(&n);
-    push_rows(s);
+    pl_exact_push_all(s, 1); // where the solution begins
     const double tolerance = n.tolerance;
     n.enough = 1e-4 * tolerance * tolerance * n.scale * n.scale * heaviest(s, &ratio);
     n.stiffness = STIFFNESS;

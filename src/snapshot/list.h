@@ -273,7 +273,8 @@
     X(body) X(flies) X(walk) X(fly) X(jump) X(thrown) X(velocity) X(speed) X(rise) X(step_top)     \
     X(on_ground) X(climbs) X(on_slope) X(at_wall) X(at_ceiling) X(crushed) X(slope_side)           \
     X(air_time) X(ground.body) X(ground.shape) X(ground.local) X(ground.normal) X(passing_count)   \
-    X(pushed) X(push) X(push_speed) X(trod) X(weight) X(weight_speed) X(desc.up) X(desc.max_slope) X(desc.skin) X(desc.step_height)  \
+    X(pushed) X(push) X(push_speed) X(trod) X(weight) X(weight_speed)                              \
+    X(desc.up) X(desc.max_slope) X(desc.skin) X(desc.step_height)                                  \
     X(desc.step_width) X(desc.snap_distance) X(desc.acceleration) X(desc.air_acceleration)         \
     X(desc.max_fall_speed) X(desc.mass) X(desc.push_force) X(desc.no_steps) X(desc.no_snap)        \
     X(desc.no_push) X(desc.no_air_control)
