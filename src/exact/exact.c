@@ -23,7 +23,7 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .joints = s->solving->joints,
                               .exact = e,
                               .nodes = e->nodes.data,
-                              .entries = e->entries.data,
+                              .entries = e->elimination.entries.data,
                               .items = e->items.data,
                               .rows = e->rows.data,
                               .turnings = e->turnings.data,

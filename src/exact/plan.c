@@ -1,8 +1,6 @@
 // plan.c - which bodies hang together, in which order they are eliminated, and what that fills in.
 //
-// Two bodies are neighbours that a contact or joint ties. The order is that of least degree, by the quotient graph: a body
-// that is gone leaves an element, the list of those behind it that it made neighbours (George and Liu 1989). Chains and trees
-// fill in nothing.
+// Two bodies are neighbours that a contact or joint ties; the order is that of core/elimination.h.
 //
 // Bodies are told by their place: the order of their handles. Contacts and joints are listed by the places of their bodies, then
 // by handles of pieces and joints. So what is the same in an island stays so whatever else there is, and wherever rows went.
@@ -22,28 +20,20 @@ typedef struct search {
     plumb_world *world;
     pl_exact_solver *exact;
     uint32_t base; // first of the slots that are looked at: all that move, or those of hard islands
-    uint32_t slots, ties;     // how many; contacts and joints between two of them
-    uint32_t *place;          // a slot, from `base` on. What follows is about places
-    uint32_t *slot;           // a place
-    uint32_t *first, *length; // in `near`; of it
-    uint32_t *elements;       // how many of its list are elements; these come first
-    uint32_t *near;           // places, for elements their nodes
-    uint32_t *island;
-    uint32_t *node;                   // PL_NONE: not yet eliminated
-    uint32_t *mark, *seen;            // stamp of the column, and of the count, that met it last
-    uint32_t *degree, *next, *before; // in the list of its degree
-    uint32_t *list;                   // a degree: first place
-    pl_keyed *keyed;                  // scratch
-    uint32_t stamp, count;
+    uint32_t slots;  // how many
+    uint32_t *place; // a slot, from `base` on. What follows is about places
+    uint32_t *slot;  // a place
+    pl_keyed *keyed; // scratch
 } search;
 
 void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 {
-    pl_buffer *all[] = { &e->nodes,  &e->entries, &e->items,    &e->islands, &e->rows,
+    pl_buffer *all[] = { &e->nodes,  &e->items,   &e->islands,  &e->rows,
                          &e->blocks, &e->vectors, &e->turnings, &e->scratch };
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         pl_buffer_free(memory, all[i]);
     }
+    pl_elimination_free(memory, &e->elimination);
 }
 
 //---- contacts and joints -------------------------------------------------------------------------------
@@ -116,27 +106,15 @@ static bool open_search(plumb_world *world, pl_exact_solver *e, search *s)
 {
     const pl_slots slots = slots_of(&world->solver);
     *s = (search){ .world = world, .exact = e, .base = slots.first, .slots = slots.count };
-    const pl_exact_item *items = e->items.data;
-    for (uint32_t i = 0; i < e->item_count; ++i) {
-        s->ties += is_tie(s, &items[i]);
-    }
     const size_t n = s->slots, keyed = n > e->item_count ? n : e->item_count;
     if (!pl_buffer_reserve(&world->memory, &e->scratch,
-                           keyed * sizeof(pl_keyed) +
-                               (13 * n + 1 + 2 * (size_t)s->ties) * sizeof(uint32_t))) {
+                           keyed * sizeof(pl_keyed) + 2 * n * sizeof(uint32_t)) ||
+        !pl_elimination_open(&world->memory, &e->elimination, s->slots, e->item_count)) {
         return false;
     }
     s->keyed = e->scratch.data;
-    uint32_t *at = (uint32_t *)(s->keyed + keyed);
-    s->first = at, s->length = at + n, s->elements = at + 2 * n, s->island = at + 3 * n;
-    s->node = at + 4 * n, s->mark = at + 5 * n, s->degree = at + 6 * n, s->next = at + 7 * n;
-    s->before = at + 8 * n, s->place = at + 9 * n, s->slot = at + 10 * n, s->seen = at + 11 * n;
-    s->list = at + 12 * n, s->near = at + 13 * n + 1;
-    memset(s->length, 0, 2 * n * sizeof(uint32_t));    // and elements
-    memset(s->island, 0xff, 2 * n * sizeof(uint32_t)); // and node
-    memset(s->mark, 0, n * sizeof(uint32_t));
-    memset(s->seen, 0, n * sizeof(uint32_t));
-    memset(s->list, 0xff, (n + 1) * sizeof(uint32_t));
+    s->place = (uint32_t *)(s->keyed + keyed);
+    s->slot = s->place + n;
     return true;
 }
 
@@ -189,73 +167,27 @@ static void order_items(search *s)
     memcpy(items, sorted, count * sizeof *items);
 }
 
-static void add_near(search *s, uint32_t to, uint32_t other)
-{
-    s->near[s->first[to] + s->length[to]++] = other;
-}
-
-// Lists of neighbours, each once.
-static void list_neighbours(search *s)
+static void pair_neighbours(search *s)
 {
     const pl_exact_item *items = s->exact->items.data;
-    for (uint32_t i = 0; i < s->exact->item_count; ++i) {
-        for (int end = 0; end < 2 && is_tie(s, &items[i]); ++end) {
-            ++s->length[place_of(s, &items[i], end)];
-        }
-    }
-    uint32_t at = 0;
-    for (uint32_t v = 0; v < s->slots; ++v) {
-        s->first[v] = at;
-        at += s->length[v];
-        s->length[v] = 0;
-    }
+    pl_elimination *to = &s->exact->elimination;
     for (uint32_t i = 0; i < s->exact->item_count; ++i) {
         if (is_tie(s, &items[i])) {
-            const uint32_t a = place_of(s, &items[i], 0), b = place_of(s, &items[i], 1);
-            add_near(s, a, b);
-            add_near(s, b, a);
-        }
-    }
-    for (uint32_t v = 0; v < s->slots; ++v) {
-        const uint32_t count = s->length[v];
-        s->length[v] = 0;
-        ++s->stamp;
-        for (uint32_t k = 0; k < count; ++k) {
-            const uint32_t u = s->near[s->first[v] + k];
-            if (s->mark[u] != s->stamp) {
-                s->mark[u] = s->stamp;
-                add_near(s, v, u);
-            }
+            uint32_t *pair = to->pairs + 2 * (size_t)to->pair_count++;
+            pair[0] = place_of(s, &items[i], 0), pair[1] = place_of(s, &items[i], 1);
         }
     }
 }
 
 //---- islands -----------------------------------------------------------------------------------------
 
-// Numbers all that hangs together with place `from`; `queue` has room for all places.
-static uint32_t flood(search *s, uint32_t from, uint32_t number, uint32_t *queue)
-{
-    uint32_t count = 0;
-    queue[count++] = from;
-    s->island[from] = number;
-    for (uint32_t at = 0; at < count; ++at) {
-        const uint32_t v = queue[at];
-        for (uint32_t k = 0; k < s->length[v]; ++k) {
-            const uint32_t u = s->near[s->first[v] + k];
-            if (s->island[u] == PL_NONE) {
-                s->island[u] = number;
-                queue[count++] = u;
-            }
-        }
-    }
-    return count;
-}
-
 // The island of a contact or joint; NULL: nothing of it moves.
 static pl_exact_island *island_of(const search *s, const pl_exact_item *item)
 {
     const uint32_t a = place_of(s, item, 0), place = a != PL_NONE ? a : place_of(s, item, 1);
-    return place != PL_NONE ? (pl_exact_island *)s->exact->islands.data + s->island[place] : NULL;
+    return place != PL_NONE
+               ? (pl_exact_island *)s->exact->islands.data + s->exact->elimination.component[place]
+               : NULL;
 }
 
 // Contacts and joints by their islands, in the order in which they were; rows of each.
@@ -299,212 +231,33 @@ static void sort_items(search *s)
     }
 }
 
-//---- elimination --------------------------------------------------------------------------------------
+//---- nodes -------------------------------------------------------------------------------------------
 
-static void unlist(search *s, uint32_t v)
-{
-    if (s->before[v] != PL_NONE) {
-        s->next[s->before[v]] = s->next[v];
-    } else {
-        s->list[s->degree[v]] = s->next[v];
-    }
-    if (s->next[v] != PL_NONE) {
-        s->before[s->next[v]] = s->before[v];
-    }
-}
-
-static void enlist(search *s, uint32_t v, uint32_t degree)
-{
-    s->degree[v] = degree;
-    s->before[v] = PL_NONE;
-    s->next[v] = s->list[degree];
-    if (s->next[v] != PL_NONE) {
-        s->before[s->next[v]] = v;
-    }
-    s->list[degree] = v;
-}
-
-static bool add_entry(search *s, uint32_t place)
-{
-    pl_exact_solver *e = s->exact;
-    if (s->mark[place] == s->stamp) {
-        return true;
-    }
-    s->mark[place] = s->stamp;
-    if ((size_t)(e->entry_count + 1) * sizeof(uint32_t) > e->entries.size &&
-        !pl_buffer_reserve(&s->world->memory, &e->entries,
-                           2 * (size_t)(e->entry_count + 1) * sizeof(uint32_t))) {
-        return false;
-    }
-    ((uint32_t *)e->entries.data)[e->entry_count++] = place;
-    return true;
-}
-
-// All that a body has to do with when it goes, as places; the elements that it used up are gone with it.
-static bool fill_column(search *s, uint32_t v, pl_exact_node *node)
-{
-    pl_exact_solver *e = s->exact;
-    pl_exact_node *nodes = e->nodes.data;
-    node->first = e->entry_count;
-    ++s->stamp;
-    s->mark[v] = s->stamp;
-    for (uint32_t k = 0; k < s->length[v]; ++k) {
-        const uint32_t u = s->near[s->first[v] + k];
-        if (k >= s->elements[v]) {
-            if (!add_entry(s, u)) {
-                return false;
-            }
-            continue;
-        }
-        for (uint32_t i = nodes[u].first; i < nodes[u].first + nodes[u].count; ++i) {
-            const uint32_t w = ((const uint32_t *)e->entries.data)[i];
-            if (s->node[w] == PL_NONE && !add_entry(s, w)) {
-                return false;
-            }
-        }
-        nodes[u].where = 1; // used up
-    }
-    node->count = e->entry_count - node->first;
-    return true;
-}
-
-static uint32_t count_once(search *s, uint32_t place)
-{
-    if (s->seen[place] == s->count || s->node[place] != PL_NONE) {
-        return 0;
-    }
-    s->seen[place] = s->count;
-    return 1;
-}
-
-// How many a body would leave as neighbours of one another.
-static uint32_t degree_of(search *s, uint32_t v)
-{
-    const pl_exact_node *nodes = s->exact->nodes.data;
-    const uint32_t *near = s->near + s->first[v], *entries = s->exact->entries.data;
-    uint32_t degree = 0;
-    s->seen[v] = ++s->count;
-    for (uint32_t k = 0; k < s->length[v]; ++k) {
-        if (k >= s->elements[v]) {
-            degree += count_once(s, near[k]);
-            continue;
-        }
-        const pl_exact_node *e = &nodes[near[k]];
-        for (uint32_t i = e->first; i < e->first + e->count; ++i) {
-            degree += count_once(s, entries[i]);
-        }
-    }
-    return degree;
-}
-
-// A neighbour of the body that became `node`: what it knew of that, and of those that the element tells, goes.
-static void shorten(search *s, uint32_t v, uint32_t node)
-{
-    const pl_exact_node *nodes = s->exact->nodes.data;
-    uint32_t *near = s->near + s->first[v];
-    uint32_t elements = 0, kept = 0, last = node; // goes in behind the elements that are left
-    for (uint32_t k = 0; k < s->elements[v]; ++k) {
-        if (nodes[near[k]].where == 0) {
-            near[elements++] = near[k];
-        }
-    }
-    kept = elements;
-    for (uint32_t k = s->elements[v]; k < s->length[v]; ++k) {
-        if (s->mark[near[k]] != s->stamp) {
-            near[kept++] = near[k];
-        }
-    }
-    // One place at least has become free: of the body itself, or of an element that was used up.
-    if (kept > elements) {
-        const uint32_t moved = near[elements];
-        near[elements] = last;
-        last = moved;
-    }
-    near[kept++] = last;
-    s->elements[v] = elements + 1;
-    s->length[v] = kept;
-    unlist(s, v);
-    enlist(s, v, degree_of(s, v));
-}
-
-static bool eliminate(search *s, uint32_t v)
-{
-    pl_exact_solver *e = s->exact;
-    const uint32_t number = e->node_count++;
-    pl_exact_node *node = (pl_exact_node *)e->nodes.data + number;
-    *node = (pl_exact_node){ .slot = v };
-    if (!fill_column(s, v, node)) {
-        return false;
-    }
-    s->node[v] = number;
-    for (uint32_t i = node->first; i < node->first + node->count; ++i) {
-        shorten(s, ((const uint32_t *)e->entries.data)[i], number);
-    }
-    return true;
-}
-
-// Takes the places of `queue` in the order of least degree. An island of too many entries has none: what a body does to
-// another is left out of Newton's steps, which then seldom settle, and are told as missed.
-static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_exact_island *island)
-{
-    pl_exact_solver *e = s->exact;
-    const uint32_t first_entry = e->entry_count;
-    bool too_dense = false;
-    island->first_node = e->node_count;
-    for (uint32_t i = count; i-- > 0;) {
-        enlist(s, queue[i], s->length[queue[i]]);
-    }
-    for (uint32_t i = 0; i < count; ++i) {
-        uint32_t degree = 0;
-        while (s->list[degree] == PL_NONE) {
-            ++degree;
-        }
-        const uint32_t v = s->list[degree];
-        unlist(s, v);
-        if (!eliminate(s, v)) {
-            return false;
-        }
-        if (e->entry_count - first_entry > MOST_ENTRIES) {
-            too_dense = true;
-            e->entry_count = first_entry;
-            e->node_count = island->first_node;
-            memset(s->list, 0xff, (s->slots + 1) * sizeof(uint32_t));
-            break;
-        }
-    }
-    for (uint32_t i = 0; i < count && too_dense; ++i) {
-        s->node[queue[i]] = e->node_count;
-        ((pl_exact_node *)e->nodes.data)[e->node_count++] =
-            (pl_exact_node){ .slot = queue[i], .first = first_entry };
-    }
-    island->end_node = e->node_count;
-    return true;
-}
-
-//---- all ---------------------------------------------------------------------------------------------
-
+// An island of too many entries has none: what a body does to another is left out of Newton's steps, which then seldom settle,
+// and are told as missed.
 static bool find_islands(search *s)
 {
     pl_exact_solver *e = s->exact;
-    e->island_count = e->node_count = e->entry_count = 0;
-    if (!pl_buffer_reserve(&s->world->memory, &e->nodes, s->slots * sizeof(pl_exact_node)) ||
-        !pl_buffer_reserve(&s->world->memory, &e->islands, s->slots * sizeof(pl_exact_island)) ||
+    pl_elimination *order = &e->elimination;
+    if (!pl_elimination_run(&s->world->memory, order, MOST_ENTRIES) ||
+        !pl_buffer_reserve(&s->world->memory, &e->nodes, s->slots * sizeof(pl_exact_node)) ||
+        !pl_buffer_reserve(&s->world->memory, &e->islands,
+                           order->component_count * sizeof(pl_exact_island)) ||
         !pl_buffer_reserve(&s->world->memory, &e->vectors,
                            PL_EXACT_VECTORS * 3 * (size_t)s->slots * sizeof(double))) {
         return false;
     }
-    uint32_t *found = (uint32_t *)e->vectors.data; // scratch until the step is solved
-    for (uint32_t v = 0; v < s->slots; ++v) {
-        if (s->island[v] != PL_NONE) {
-            continue;
-        }
-        pl_exact_island *island = (pl_exact_island *)e->islands.data + e->island_count;
-        *island = (pl_exact_island){ 0 };
-        const uint32_t count = flood(s, v, e->island_count, found);
-        ++e->island_count;
-        if (!eliminate_all(s, found, count, island)) {
-            return false;
-        }
+    e->node_count = s->slots;
+    e->entry_count = order->entry_count;
+    e->island_count = order->component_count;
+    for (uint32_t k = 0; k < e->island_count; ++k) {
+        ((pl_exact_island *)e->islands.data)[k] =
+            (pl_exact_island){ .first_node = order->start[k], .end_node = order->start[k + 1] };
+    }
+    for (uint32_t i = 0; i < e->node_count; ++i) {
+        ((pl_exact_node *)e->nodes.data)[i] = (pl_exact_node){ .slot = s->slot[order->order[i]],
+                                                               .first = order->column[i],
+                                                               .count = order->fill[i] };
     }
     return true;
 }
@@ -513,17 +266,18 @@ static bool find_islands(search *s)
 static void number_entries(search *s)
 {
     pl_exact_solver *e = s->exact;
-    uint32_t *entries = e->entries.data;
+    uint32_t *entries = e->elimination.entries.data;
+    const uint32_t *rank = e->elimination.rank;
     const pl_exact_node *nodes = e->nodes.data;
     for (uint32_t i = 0; i < e->entry_count; ++i) {
-        entries[i] = s->node[entries[i]];
+        entries[i] = rank[entries[i]];
     }
     pl_exact_item *items = e->items.data;
     for (uint32_t i = 0; i < e->item_count; ++i) {
         pl_exact_item *item = &items[i];
         for (int end = 0; end < 2; ++end) {
             const uint32_t place = place_of(s, item, end);
-            item->node[end] = place != PL_NONE ? s->node[place] : PL_NONE;
+            item->node[end] = place != PL_NONE ? rank[place] : PL_NONE;
         }
         item->entry = PL_NONE;
         if (item->node[0] == PL_NONE || item->node[1] == PL_NONE) {
@@ -545,7 +299,6 @@ static void weigh(search *s)
     const pl_solver *solver = &s->world->solver;
     const uint32_t *rows = solver->rows.data;
     for (uint32_t i = 0; i < s->exact->node_count; ++i) {
-        nodes[i].slot = s->slot[nodes[i].slot]; // was the place
         const pl_solver_body *body = &pl_solver_bodies(solver)[nodes[i].slot];
         const uint16_t flags = s->world->bodies.flags[rows[nodes[i].slot]];
         nodes[i].inv_mass[0] = (double)pl_unlocked(flags, PL_BODY_LOCK_X, body->inv_mass);
@@ -568,7 +321,7 @@ bool pl_exact_plan(plumb_world *world)
     }
     order_bodies(&s);
     order_items(&s);
-    list_neighbours(&s);
+    pair_neighbours(&s);
     if (!find_islands(&s)) {
         return false;
     }

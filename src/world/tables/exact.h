@@ -2,12 +2,12 @@
 #ifndef PL_TABLE_EXACT_H
 #define PL_TABLE_EXACT_H
 
-#include "core/memory.h"
+#include "core/elimination.h"
 
 // A body that moves: three unknowns, in the order of elimination.
 typedef struct pl_exact_node {
     uint32_t slot;         // of the solver
-    uint32_t first, count; // in `entries`: nodes behind it that it has to do with, or comes to
+    uint32_t first, count; // in entries of `elimination`: nodes behind it that it has to do with, or comes to
     uint32_t where;        // scratch: entry of this node in the column that is worked on
     double inv_mass[3];    // [1/kg], [1/(kg m^2)] along x, y and in turning; 0: locked
 } pl_exact_node;
@@ -32,7 +32,7 @@ typedef struct pl_exact_island {
 
 typedef struct pl_exact_solver {
     pl_buffer nodes;   // pl_exact_node
-    pl_buffer entries; // uint32_t
+    pl_elimination elimination;
     pl_buffer items;   // pl_exact_item
     pl_buffer islands; // pl_exact_island
     pl_buffer rows;    // pl_exact_row
