@@ -36,6 +36,11 @@ static bool fixed_holds(const plumb_world *world)
     return !world->static_dirty && !world->broad.fixed_lost;
 }
 
+bool pl_step_grids_hold(const plumb_world *world)
+{
+    return resting_holds(world) && fixed_holds(world) && moving_holds(world);
+}
+
 static pl_grid *own_grids(const pl_query_grid_set *set)
 {
     return set->grids.data;

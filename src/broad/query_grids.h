@@ -12,6 +12,9 @@
 bool pl_query_grids_update(plumb_world *world);
 // The grid to look into; after pl_query_grids_update.
 const pl_grid *pl_query_grid_of(const plumb_world *world, pl_query_grid which);
+// Whether the step's own grids hold all that there is, where it is now; that of what sleeps may still name pieces that sleep no
+// more. Cost: O(moving pieces).
+bool pl_step_grids_hold(const plumb_world *world);
 void pl_query_grids_free(pl_memory *memory, pl_query_grid_set *set);
 
 #endif

@@ -1,7 +1,6 @@
 // contacts.c - nodes that touch shapes.
 //
-// Once a step the pieces near nodes are listed, by boxes that what is fast sweeps; in each substep, whom of them a node
-// reaches. A node that is on its way into a piece is held where it would enter it, one that is in it is pushed out
+// In each substep it is found whom of the pieces near (near.c) a node reaches. A node that is on its way into a piece is held where it would enter it, one that is in it is pushed out
 // slowly, so that nothing tunnels and nothing is shot out. The law is that of a stiff spring asked for at x' + h v' / 2
 // (elements.c), stiff for all of the mass that may press: no restitution, and what is pressed sinks by less than
 // g h^2 / 10. Friction: a damper that gives all that Coulomb's law allows at a slip of a four-hundredth of g h, so what is held
@@ -9,10 +8,8 @@
 // the function stays one, and convex, and Newton's iteration ends. Where they are others by then, it goes on, once, by
 // these. What slides has no stiffness; a fiftieth of the secant's keeps light nodes from being sent far (DECISIONS.md).
 //
-// Reads: points, rows, pieces. Writes: bodies and obstacles of the step, contacts, the matrix. Cost: once a step
-// O(bodies + pieces), and nodes times pieces in the box of their soft body; a substep O(what is near).
+// Reads: points, bodies and obstacles of the step. Writes: contacts, the matrix. Cost: O(what is near).
 #include "softbody/softbody.h"
-#include "world/rows.h"
 
 #include <math.h>
 
@@ -26,193 +23,6 @@
 static pl_soft_point *points_of(const pl_soft_step *s)
 {
     return s->points.data;
-}
-
-//---- bodies that are near --------------------------------------------------------------------------
-
-static pl_soft_body body_of(const plumb_world *world, uint32_t row)
-{
-    const pl_bodies *b = &world->bodies;
-    const bool moves = row < world->dynamic_count + world->kinematic_count;
-    const bool fixed = (b->flags[row] & PL_BODY_FIXED_ROTATION) != 0 || b->inv_inertia[row] == 0;
-    return (pl_soft_body){
-        .body = b->entity[row],
-        .row = row,
-        .slot = PL_NONE,
-        .block = PL_NONE,
-        .x0 = (double)b->center_x[row] + (double)b->residual_x[row],
-        .y0 = (double)b->center_y[row] + (double)b->residual_y[row],
-        .c0 = (double)b->c[row],
-        .s0 = (double)b->s[row],
-        .vx = moves ? (double)b->vx[row] : 0,
-        .vy = moves ? (double)b->vy[row] : 0,
-        .w = moves ? (double)b->w[row] : 0,
-        .mass = (double)b->mass[row],
-        .inertia = (double)b->inertia[row],
-        .locked_x = (b->flags[row] & PL_BODY_LOCK_X) != 0 ? 0 : 1,
-        .locked_y = (b->flags[row] & PL_BODY_LOCK_Y) != 0 ? 0 : 1,
-        .locked_w = fixed ? 0 : 1,
-        .asleep = pl_row_is_asleep(world, row),
-    };
-}
-
-uint32_t pl_soft_body_of(plumb_world *world, uint32_t row)
-{
-    pl_soft_step *s = world->softbodies.step;
-    pl_soft_body *bodies = s->bodies.data;
-    for (uint32_t i = s->body_count; i-- > 0;) { // most often the last one
-        if (bodies[i].row == row) {
-            return i;
-        }
-    }
-    if (!pl_buffer_reserve(&world->memory, &s->bodies,
-                           (s->body_count + 1) * sizeof(pl_soft_body))) {
-        return PL_NONE;
-    }
-    ((pl_soft_body *)s->bodies.data)[s->body_count] = body_of(world, row);
-    return s->body_count++;
-}
-
-void pl_soft_see_piece(const plumb_world *world, uint32_t row, uint32_t piece,
-                       pl_soft_obstacle *out)
-{
-    const pl_bodies *b = &world->bodies;
-    plumb_convex shape;
-    pl_piece_convex(world, piece, &shape);
-    *out = (pl_soft_obstacle){ .piece = piece,
-                               .body = PL_NONE,
-                               .count = shape.count,
-                               .friction = (double)world->pieces.friction[piece],
-                               .radius = (double)shape.radius };
-    for (int i = 0; i < shape.count; ++i) {
-        out->x[i] = (double)shape.points[i].x - (double)b->local_x[row];
-        out->y[i] = (double)shape.points[i].y - (double)b->local_y[row];
-        const double r = sqrt(out->x[i] * out->x[i] + out->y[i] * out->y[i]);
-        out->extent = r > out->extent ? r : out->extent;
-    }
-}
-
-static bool add_obstacle(plumb_world *world, uint32_t row, uint32_t piece)
-{
-    pl_soft_step *s = world->softbodies.step;
-    const uint32_t body = pl_soft_body_of(world, row);
-    if (body == PL_NONE || !pl_buffer_reserve(&world->memory, &s->obstacles,
-                                              (s->obstacle_count + 1) * sizeof(pl_soft_obstacle))) {
-        return false;
-    }
-    pl_soft_obstacle *o = (pl_soft_obstacle *)s->obstacles.data + s->obstacle_count++;
-    pl_soft_see_piece(world, row, piece, o);
-    o->body = body;
-    return true;
-}
-
-typedef struct region {
-    double low_x, low_y, high_x, high_y; // [m]
-} region;
-
-static void widen(region *r, double x, double y, double by)
-{
-    r->low_x = x - by < r->low_x ? x - by : r->low_x;
-    r->low_y = y - by < r->low_y ? y - by : r->low_y;
-    r->high_x = x + by > r->high_x ? x + by : r->high_x;
-    r->high_y = y + by > r->high_y ? y + by : r->high_y;
-}
-
-// [m] that a node may move in a step.
-static double way_of(const plumb_world *world, const pl_soft_point *p, double dt)
-{
-    const double g = fabs((double)world->gravity.x) + fabs((double)world->gravity.y);
-    return 2 * dt * (fabs(p->vx) + fabs(p->vy) + dt * g) + p->radius;
-}
-
-double pl_soft_way_of_row(const plumb_world *world, uint32_t row, double dt)
-{
-    const pl_bodies *b = &world->bodies;
-    return row >= world->dynamic_count + world->kinematic_count
-               ? 0
-               : 2 * dt *
-                     (fabs((double)b->vx[row]) + fabs((double)b->vy[row]) +
-                      fabs((double)b->w[row]) * (double)b->extent[row]);
-}
-
-bool pl_soft_meets(const plumb_world *world, uint32_t piece, const pl_softbody *item)
-{
-    const pl_pieces *p = &world->pieces;
-    plumb_filter own = { p->category[piece], p->mask[piece], p->group[piece], p->mask[piece] == 0 };
-    return (p->flags[piece] & PL_PIECE_SENSOR) == 0 && plumb_filters_meet(own, item->filter);
-}
-
-static bool near_piece(plumb_world *world, const pl_softbody *item, uint32_t first, uint32_t row,
-                       uint32_t piece, const region *r, double dt)
-{
-    pl_soft_step *s = world->softbodies.step;
-    const double way = pl_soft_way_of_row(world, row, dt);
-    const pl_box box = pl_piece_tight_box(world, piece);
-    const region reach = { (double)box.min_x - way, (double)box.min_y - way,
-                           (double)box.max_x + way, (double)box.max_y + way };
-    if (reach.low_x > r->high_x || reach.high_x < r->low_x || reach.low_y > r->high_y ||
-        reach.high_y < r->low_y || !pl_soft_meets(world, piece, item)) {
-        return true;
-    }
-    uint32_t obstacle = PL_NONE;
-    for (uint32_t i = first; i < first + item->nodes; ++i) {
-        const pl_soft_point *p = points_of(s) + i;
-        const double by = p->radius > 0 && !p->pinned ? way_of(world, p, dt) : -INFINITY;
-        if (p->x + by < reach.low_x || p->x - by > reach.high_x || p->y + by < reach.low_y ||
-            p->y - by > reach.high_y) {
-            continue;
-        }
-        if (obstacle == PL_NONE) {
-            obstacle = s->obstacle_count;
-            if (!add_obstacle(world, row, piece)) {
-                return false;
-            }
-        }
-        if (!pl_buffer_reserve(&world->memory, &s->near_,
-                               (s->near_count + 1) * sizeof(pl_soft_near))) {
-            return false;
-        }
-        ((pl_soft_near *)s->near_.data)[s->near_count++] = (pl_soft_near){ i, obstacle };
-    }
-    return true;
-}
-
-static bool find_near(plumb_world *world, const pl_softbody *item, uint32_t first, double dt)
-{
-    const uint32_t rows = pl_partition_first(world, PL_PART_DISABLED);
-    region r = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = first; i < first + item->nodes; ++i) {
-        const pl_soft_point *p = points_of(world->softbodies.step) + i;
-        if (p->radius > 0 && !p->pinned) {
-            widen(&r, p->x, p->y, way_of(world, p, dt));
-        }
-    }
-    for (uint32_t row = 0; row < rows && r.low_x <= r.high_x; ++row) {
-        uint32_t piece = world->bodies.first_piece[row];
-        for (; piece != PL_NONE; piece = world->pieces.next_in_body[piece]) {
-            if (!near_piece(world, item, first, row, piece, &r, dt)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-bool pl_soft_find_near(plumb_world *world, double dt)
-{
-    const pl_softbodies *all = &world->softbodies;
-    pl_soft_step *s = all->step;
-    uint32_t first = 0;
-    s->near_count = s->obstacle_count = 0;
-    for (uint32_t i = 0; i < all->count; ++i) {
-        const pl_softbody *item = &pl_softbody_items(all)[i];
-        const uint32_t count = item->asleep ? 0 : item->nodes;
-        if (count > 0 && !find_near(world, item, first, dt)) {
-            return false;
-        }
-        first += count;
-    }
-    return pl_buffer_reserve(&world->memory, &s->contacts, s->near_count * sizeof(pl_soft_contact));
 }
 
 //---- contacts of a substep -----------------------------------------------------------------------
@@ -316,8 +126,13 @@ void pl_soft_find_contacts(plumb_world *world, double h)
     const pl_soft_near *near = s->near_.data;
     pl_soft_contact *contacts = s->contacts.data;
     s->contact_count = 0;
-    for (uint32_t i = 0; i < s->near_count; ++i) {
-        s->contact_count += touch(s, &near[i], h, &contacts[s->contact_count]);
+    for (uint32_t k = 0; k < s->member_count; ++k) {
+        pl_soft_member *m = &pl_soft_members(s)[k];
+        m->first_contact = s->contact_count;
+        for (uint32_t i = m->first_near; i < m->end_near; ++i) {
+            s->contact_count += touch(s, &near[i], h, &contacts[s->contact_count]);
+        }
+        m->end_contact = s->contact_count;
     }
 }
 
@@ -376,24 +191,27 @@ static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, d
     if (!moves) {
         return;
     }
-    double *other = pl_soft_entry(m, b->block, p->block);
+    const bool behind = b->block > p->block;
+    double *other =
+        behind ? pl_soft_entry(m, b->block, p->block) : pl_soft_entry(m, p->block, b->block);
     double *body = m->diagonal + 9 * (size_t)b->block;
     for (int r = 0; r < 3; ++r) {
         for (int k = 0; k < 3; ++k) {
             body[3 * r + k] += stiff * w->body[r] * w->body[k];
         }
-        other[3 * r] += stiff * w->body[r] * w->node[0];
-        other[3 * r + 1] += stiff * w->body[r] * w->node[1];
+        other[behind ? 3 * r : r] += stiff * w->body[r] * w->node[0];
+        other[behind ? 3 * r + 1 : 3 + r] += stiff * w->body[r] * w->node[1];
     }
 }
 
-static double press(pl_soft_step *s, pl_soft_contact *c, double h, pl_soft_fill fill)
+static double press(const pl_soft_step *s, pl_soft_contact *c, int pass, double h,
+                    pl_soft_fill fill)
 {
     const way n = way_along(s, c, c->nx, c->ny), t = way_along(s, c, -c->ny, c->nx);
     const double gap = c->gap + h * (1.5 * rate_of(s, c, &n, false) + rate_of(s, c, &n, true));
     const double force = gap < 0 ? -c->stiffness * gap : 0;
     if (fill == PL_SOFT_ALL) {
-        c->most = s->pass == 0 ? 0 : s->pass < LAG ? c->friction * force : c->most;
+        c->most = pass == 0 ? 0 : pass < LAG ? c->friction * force : c->most;
     }
     c->force = force;
     double energy = force * -gap / 2;
@@ -413,28 +231,39 @@ static double press(pl_soft_step *s, pl_soft_contact *c, double h, pl_soft_fill 
     return energy;
 }
 
-double pl_soft_press(pl_soft_step *s, double h, pl_soft_fill fill)
+// Of a group: its members' contacts are one behind the other.
+static uint32_t first_contact(const pl_soft_step *s, const pl_soft_group *g)
+{
+    return pl_soft_members(s)[g->first_member].first_contact;
+}
+
+static uint32_t end_contact(const pl_soft_step *s, const pl_soft_group *g)
+{
+    return pl_soft_members(s)[g->end_member - 1].end_contact;
+}
+
+double pl_soft_press(const pl_soft_step *s, const pl_soft_group *g, double h, pl_soft_fill fill)
 {
     pl_soft_contact *contacts = s->contacts.data;
     double energy = 0;
-    for (uint32_t i = 0; i < s->contact_count; ++i) {
-        energy += press(s, &contacts[i], h, fill);
+    for (uint32_t i = first_contact(s, g); i < end_contact(s, g); ++i) {
+        energy += press(s, &contacts[i], g->pass, h, fill);
     }
     return energy;
 }
 
 // So early as the first passes end normal forces may be those of a rope that is not tight yet.
-bool pl_soft_bind(pl_soft_step *s)
+bool pl_soft_bind(const pl_soft_step *s, pl_soft_group *g)
 {
     pl_soft_contact *contacts = s->contacts.data;
     double changed = 0, sum = 0;
-    for (uint32_t i = 0; i < s->contact_count; ++i) {
+    for (uint32_t i = first_contact(s, g); i < end_contact(s, g); ++i) {
         pl_soft_contact *c = &contacts[i];
         const double most = c->friction * c->force;
         changed += fabs(most - c->most);
         sum += most;
         c->most = most;
     }
-    s->pass = s->pass < LAG ? LAG : s->pass; // from now on they stay
+    g->pass = g->pass < LAG ? LAG : g->pass; // from now on they stay
     return changed > BOUND * sum;
 }

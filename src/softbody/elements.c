@@ -408,9 +408,11 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
             continue;
         }
         pl_soft_follow(s, node, j);
-        double *to = pl_soft_entry(mx, block, node->block);
+        const bool behind = block > node->block;
+        double *to =
+            behind ? pl_soft_entry(mx, block, node->block) : pl_soft_entry(mx, node->block, block);
         for (int k = 0; k < 3; ++k) {
-            to[k] += g[0] * j[k] + g[1] * j[3 + k];
+            to[behind ? k : 3 * k] += g[0] * j[k] + g[1] * j[3 + k];
         }
     }
     return 4 * energy_of_gas(item, area) + h * c * rate * rate / (2 * LATE);
@@ -418,40 +420,50 @@ static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t f
 
 //---- all of them ---------------------------------------------------------------------------------
 
-double pl_soft_elements(plumb_world *world, double h, pl_soft_fill fill)
+static double elements_of(const pl_softbodies *all, const pl_soft_member *m, double h,
+                          pl_soft_fill fill)
 {
+    const pl_soft_step *s = all->step;
+    const pl_softbody *item = &pl_softbody_items(all)[m->item];
+    const pl_softbody_place at = m->at;
+    pl_soft_pull *pulls = (pl_soft_pull *)s->pulls.data + at.edge;
     double energy = 0;
+    for (uint32_t k = 0; k < item->edges; ++k) {
+        const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
+        if ((e->flags & PLUMB_EDGE_TORN) == 0) {
+            energy += pull(s, e, at.point, h, fill, &pulls[k]);
+        }
+    }
+    for (uint32_t k = 0; k < item->bends; ++k) {
+        energy += bend(s, &pl_softbody_bends(all)[at.bend + k], at.point, h, fill);
+    }
+    if (item->ring > 0) {
+        energy += inflate(s, item, at.point, pl_softbody_rings(all) + at.ring, m->gas, h, fill);
+    }
+    return energy;
+}
+
+double pl_soft_triangles(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill)
+{
     const pl_softbodies *all = &world->softbodies;
     const pl_soft_step *s = all->step;
-    pl_softbody_place at = { 0 };
-    pl_soft_pull *pulls = s->pulls.data;
-    uint32_t gas = s->matrix.blocks;
-    for (uint32_t i = 0; i < all->count; ++i) {
-        gas -= pl_softbody_items(all)[i].ring > 0 && !pl_softbody_items(all)[i].asleep;
+    double energy = 0;
+    for (uint32_t i = g->first_member; i < g->end_member; ++i) {
+        const pl_soft_member *m = &pl_soft_members(s)[i];
+        const plumb_softbody_triangle *triangles = pl_softbody_triangles(all) + m->at.triangle;
+        for (uint32_t k = 0; k < pl_softbody_items(all)[m->item].triangles; ++k) {
+            energy += stretch(s, &triangles[k], m->at.point, h, fill);
+        }
     }
-    for (uint32_t i = 0; i < all->count; ++i) {
-        const pl_softbody *item = &pl_softbody_items(all)[i];
-        const pl_softbody_place its = at;
-        at = pl_softbody_behind(at, item);
-        if (item->asleep) {
-            continue;
-        }
-        for (uint32_t k = 0; k < item->edges; ++k) {
-            const plumb_softbody_edge *e = &pl_softbody_edges(all)[its.edge + k];
-            if ((e->flags & PLUMB_EDGE_TORN) == 0) {
-                energy += pull(s, e, its.point, h, fill, &pulls[its.edge + k]);
-            }
-        }
-        for (uint32_t k = 0; k < item->bends; ++k) {
-            energy += bend(s, &pl_softbody_bends(all)[its.bend + k], its.point, h, fill);
-        }
-        for (uint32_t k = 0; k < item->triangles; ++k) {
-            energy += stretch(s, &pl_softbody_triangles(all)[its.triangle + k], its.point, h, fill);
-        }
-        if (item->ring > 0) {
-            energy +=
-                inflate(s, item, its.point, pl_softbody_rings(all) + its.ring, gas++, h, fill);
-        }
+    return energy;
+}
+
+double pl_soft_elements(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill)
+{
+    const pl_softbodies *all = &world->softbodies;
+    double energy = 0;
+    for (uint32_t i = g->first_member; i < g->end_member; ++i) {
+        energy += elements_of(all, &pl_soft_members(all->step)[i], h, fill);
     }
     return energy;
 }

@@ -27,7 +27,7 @@ bool pl_soft_foresee(plumb_world *world, real dt)
 void pl_soft_answer(const pl_soft_step *s)
 {
     double *x = s->matrix.right;
-    pl_soft_solve(&s->matrix);
+    pl_soft_solve(&s->matrix, 0, s->matrix.blocks);
     for (size_t i = 0; i < 3 * (size_t)s->matrix.blocks; ++i) {
         x[i] = x[i] - x[i] == 0 ? x[i] : 0; // what is no number would be everywhere
     }

@@ -1,7 +1,6 @@
 // matrix.c - the system of a substep: symmetric, sparse, in blocks of 1 to 3 unknowns, factored as L D L^T without pivoting.
 //
-// Blocks of nodes come in the order of step.c, those of bodies and gas behind them: the matrix of what is elastic is
-// positive definite, a block of gas brings a negative pivot (quasi-definite: Vanderbei 1995, SIAM J. Optim. 5), so that any
+// Blocks come in the order of plan.c: the matrix of what is elastic is positive definite, a block of gas brings a negative pivot (quasi-definite: Vanderbei 1995, SIAM J. Optim. 5), so that any
 // order has a factorisation. Rows of L are found by the elimination tree (Liu 1990, SIAM J. Matrix Anal. Appl. 11) and
 // solved one after the other (up-looking: Davis 2006, Direct Methods for Sparse Linear Systems, ch. 4).
 //
@@ -101,7 +100,7 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     }
     grow_tree(m);
     count_columns(m);
-    const size_t numbers = 9 * (4 * (size_t)blocks + m->entries + m->factors) + 15 * (size_t)blocks;
+    const size_t numbers = 9 * (4 * (size_t)blocks + m->entries + m->factors) + 18 * (size_t)blocks;
     const size_t bytes = numbers * sizeof(double) + m->factors * sizeof(uint32_t);
     if (!pl_buffer_reserve(memory, &step->numbers, bytes)) {
         return false;
@@ -118,20 +117,22 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     m->tried = d, d += 3 * (size_t)blocks;
     m->slope = d, d += 3 * (size_t)blocks;
     m->way = d, d += 3 * (size_t)blocks;
+    m->sheets = d, d += 3 * (size_t)blocks;
     m->row_of = (uint32_t *)(void *)d;
     return true;
 }
 
-void pl_soft_clear_right(pl_soft_matrix *m)
+void pl_soft_clear_right(pl_soft_matrix *m, uint32_t first, uint32_t end)
 {
-    memset(m->right, 0, 3 * (size_t)m->blocks * sizeof(double));
+    memset(m->right + 3 * (size_t)first, 0, 3 * (size_t)(end - first) * sizeof(double));
 }
 
-void pl_soft_clear(pl_soft_matrix *m)
+void pl_soft_clear(pl_soft_matrix *m, uint32_t first, uint32_t end)
 {
-    memset(m->diagonal, 0, 9 * (size_t)m->blocks * sizeof(double));
-    memset(m->off, 0, 9 * (size_t)m->entries * sizeof(double));
-    pl_soft_clear_right(m);
+    const uint32_t entry = m->first[first], entries = m->first[end] - entry;
+    memset(m->diagonal + 9 * (size_t)first, 0, 9 * (size_t)(end - first) * sizeof(double));
+    memset(m->off + 9 * (size_t)entry, 0, 9 * (size_t)entries * sizeof(double));
+    pl_soft_clear_right(m, first, end);
 }
 
 double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column)
@@ -240,19 +241,19 @@ static void factor_row(pl_soft_matrix *m, uint32_t k)
     split(pivot, n, m->split + 9 * (size_t)k);
 }
 
-void pl_soft_factor(pl_soft_matrix *m)
+void pl_soft_factor(pl_soft_matrix *m, uint32_t first, uint32_t end)
 {
-    memset(m->fill, 0, m->blocks * sizeof *m->fill);
-    memset(m->mark, 0xff, m->blocks * sizeof *m->mark);
-    for (uint32_t k = 0; k < m->blocks; ++k) {
+    memset(m->fill + first, 0, (end - first) * sizeof *m->fill);
+    memset(m->mark + first, 0xff, (end - first) * sizeof *m->mark);
+    for (uint32_t k = first; k < end; ++k) {
         factor_row(m, k);
     }
 }
 
-void pl_soft_solve(const pl_soft_matrix *m)
+void pl_soft_solve(const pl_soft_matrix *m, uint32_t first, uint32_t end)
 {
     double *x = m->right;
-    for (uint32_t i = 0; i < m->blocks; ++i) {
+    for (uint32_t i = first; i < end; ++i) {
         const double *from = x + 3 * (size_t)i;
         for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
             const double *l = m->l + 9 * (size_t)p;
@@ -264,7 +265,7 @@ void pl_soft_solve(const pl_soft_matrix *m)
             }
         }
     }
-    for (uint32_t i = m->blocks; i-- > 0;) {
+    for (uint32_t i = end; i-- > first;) {
         double *to = x + 3 * (size_t)i, sum[3] = { to[0], to[1], to[2] };
         const int n = m->size[i];
         divide(m->split + 9 * (size_t)i, n, sum);

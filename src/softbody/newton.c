@@ -77,25 +77,48 @@ static void see_bodies(const plumb_world *world, double since, double h)
     }
 }
 
+static uint32_t nodes_of(const plumb_world *world, const pl_soft_member *m)
+{
+    return pl_softbody_items(&world->softbodies)[m->item].nodes;
+}
+
+static pl_soft_body *body_of(const pl_soft_step *s, uint32_t grouped)
+{
+    return &bodies_of(s)[((const uint32_t *)s->grouped.data)[grouped]];
+}
+
 // What velocities gain if nothing pulls.
-static void guess(const plumb_world *world, double h)
+static void guess(const plumb_world *world, const pl_soft_group *g, double h)
 {
     const pl_soft_step *s = world->softbodies.step;
     double *u = s->matrix.u;
-    memset(u, 0, 3 * (size_t)s->matrix.blocks * sizeof(double));
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        const pl_soft_point *p = &points_of(s)[i];
-        if (p->block != PL_NONE && p->body == PL_NONE) {
-            u[3 * (size_t)p->block] = h * (double)world->gravity.x;
-            u[3 * (size_t)p->block + 1] = h * (double)world->gravity.y;
+    for (uint32_t k = g->first_block; k < g->end_block; ++k) {
+        u[3 * (size_t)k] = u[3 * (size_t)k + 1] = u[3 * (size_t)k + 2] = 0;
+    }
+    for (uint32_t k = g->first_member; k < g->end_member; ++k) {
+        const pl_soft_member *m = &pl_soft_members(s)[k];
+        for (uint32_t i = m->at.point; i < m->at.point + nodes_of(world, m); ++i) {
+            const pl_soft_point *p = &points_of(s)[i];
+            if (p->block != PL_NONE && p->body == PL_NONE) {
+                u[3 * (size_t)p->block] = h * (double)world->gravity.x;
+                u[3 * (size_t)p->block + 1] = h * (double)world->gravity.y;
+            }
         }
     }
-    for (uint32_t i = 0; i < s->body_count; ++i) {
-        const pl_soft_body *b = &bodies_of(s)[i];
-        if (b->block != PL_NONE) {
-            double *to = u + 3 * (size_t)b->block;
-            to[0] = h * b->ax, to[1] = h * b->ay, to[2] = h * b->aw;
-        }
+    for (uint32_t k = g->first_body; k < g->end_body; ++k) {
+        const pl_soft_body *b = body_of(s, k);
+        double *to = u + 3 * (size_t)b->block;
+        to[0] = h * b->ax, to[1] = h * b->ay, to[2] = h * b->aw;
+    }
+}
+
+// What u adds to the velocities of all points of a group.
+static void change(const plumb_world *world, const pl_soft_group *g)
+{
+    const pl_soft_step *s = world->softbodies.step;
+    for (uint32_t k = g->first_member; k < g->end_member; ++k) {
+        const pl_soft_member *m = &pl_soft_members(s)[k];
+        pl_soft_change(s, m->at.point, nodes_of(world, m));
     }
 }
 
@@ -118,60 +141,100 @@ static double add_inertia(const inertia *i, double u, double *diagonal, double *
     return i->mass * (off * off + c * rate * rate / share) / 2;
 }
 
-static double add_masses(const plumb_world *world, double h, pl_soft_fill fill)
+static double add_nodes(const plumb_world *world, const pl_soft_member *m, double h,
+                        pl_soft_fill fill)
 {
     const pl_soft_step *s = world->softbodies.step;
-    const pl_soft_matrix *m = &s->matrix;
+    const pl_soft_matrix *mx = &s->matrix;
     const double gx = h * (double)world->gravity.x, gy = h * (double)world->gravity.y;
     double energy = 0;
-    for (uint32_t i = 0; i < s->point_count; ++i) {
+    for (uint32_t i = m->at.point; i < m->at.point + nodes_of(world, m); ++i) {
         const pl_soft_point *p = &points_of(s)[i];
         if (p->block == PL_NONE || p->body != PL_NONE) {
             continue;
         }
-        double *at = m->diagonal + 9 * (size_t)p->block, *to = m->right + 3 * (size_t)p->block;
+        double *at = mx->diagonal + 9 * (size_t)p->block, *to = mx->right + 3 * (size_t)p->block;
         const inertia x = { p->mass, gx, h * p->damping, p->vx - p->wind_x };
         const inertia y = { p->mass, gy, h * p->damping, p->vy - p->wind_y };
         energy += add_inertia(&x, p->cx, at, to, fill);
         energy += add_inertia(&y, p->cy, at + 4, to + 1, fill);
     }
-    for (uint32_t i = 0; i < s->body_count; ++i) {
-        const pl_soft_body *b = &bodies_of(s)[i];
-        if (b->block == PL_NONE) {
-            continue;
-        }
-        double *at = m->diagonal + 9 * (size_t)b->block, *to = m->right + 3 * (size_t)b->block;
-        const double *u = m->u + 3 * (size_t)b->block;
-        const inertia own[3] = { { b->mass, h * b->ax, 0, 0 },
-                                 { b->mass, h * b->ay, 0, 0 },
-                                 { b->inertia, h * b->aw, 0, 0 } };
-        for (int k = 0; k < 3; ++k) {
-            energy += add_inertia(&own[k], u[k], at + 4 * (size_t)k, to + k, fill);
-        }
+    return energy;
+}
+
+static double add_body(const pl_soft_matrix *m, const pl_soft_body *b, double h, pl_soft_fill fill)
+{
+    double *at = m->diagonal + 9 * (size_t)b->block, *to = m->right + 3 * (size_t)b->block;
+    const double *u = m->u + 3 * (size_t)b->block;
+    const inertia own[3] = { { b->mass, h * b->ax, 0, 0 },
+                             { b->mass, h * b->ay, 0, 0 },
+                             { b->inertia, h * b->aw, 0, 0 } };
+    double energy = 0;
+    for (int k = 0; k < 3; ++k) {
+        energy += add_inertia(&own[k], u[k], at + 4 * (size_t)k, to + k, fill);
     }
     return energy;
 }
 
-// The function that is to be least, where u is.
-static double evaluate(plumb_world *world, double h, pl_soft_fill fill)
+static double add_masses(const plumb_world *world, const pl_soft_group *g, double h,
+                         pl_soft_fill fill)
 {
-    pl_soft_step *s = world->softbodies.step;
-    pl_soft_change(s);
-    if (fill == PL_SOFT_ALL) {
-        pl_soft_clear(&s->matrix);
-    } else if (fill == PL_SOFT_SLOPES) {
-        pl_soft_clear_right(&s->matrix);
+    const pl_soft_step *s = world->softbodies.step;
+    double energy = 0;
+    for (uint32_t k = g->first_member; k < g->end_member; ++k) {
+        energy += add_nodes(world, &pl_soft_members(s)[k], h, fill);
     }
-    const double masses = add_masses(world, h, fill) + pl_soft_add_pushes(s, h, fill);
-    return masses + pl_soft_elements(world, h, fill) + pl_soft_press(s, h, fill);
+    for (uint32_t k = g->first_body; k < g->end_body; ++k) {
+        energy += add_body(&s->matrix, body_of(s, k), h, fill);
+    }
+    return energy;
+}
+
+// Numbers of a group in a vector of the matrix.
+static double *of_group(const pl_soft_group *g, double *vector)
+{
+    return vector + 3 * (size_t)g->first_block;
+}
+
+static size_t size_of(const pl_soft_group *g)
+{
+    return 3 * (size_t)(g->end_block - g->first_block);
+}
+
+// The function of a group that is to be least, where u is, but for its triangles.
+static double evaluate_rest(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill)
+{
+    const double pushes = pl_soft_add_pushes(world, g, h, fill);
+    const double masses = add_masses(world, g, h, fill) + pushes;
+    return masses + pl_soft_elements(world, g, h, fill) +
+           pl_soft_press(world->softbodies.step, g, h, fill);
+}
+
+// With its triangles: where slopes are asked for, `sheets` becomes what these add to them.
+static double evaluate(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill)
+{
+    pl_soft_matrix *m = &world->softbodies.step->matrix;
+    change(world, g);
+    if (fill == PL_SOFT_ALL) {
+        pl_soft_clear(m, g->first_block, g->end_block);
+    } else if (fill == PL_SOFT_SLOPES) {
+        pl_soft_clear_right(m, g->first_block, g->end_block);
+    }
+    double energy = 0;
+    if (g->triangles) {
+        energy = pl_soft_triangles(world, g, h, fill);
+        memcpy(of_group(g, m->sheets), of_group(g, m->right), size_of(g) * sizeof(double));
+    }
+    return energy + evaluate_rest(world, g, h, fill);
 }
 
 // u = tried + part way.
-static void try_part(const pl_soft_step *s, double part)
+static void try_part(const pl_soft_matrix *m, const pl_soft_group *g, double part)
 {
-    const pl_soft_matrix *m = &s->matrix;
-    for (size_t i = 0; i < 3 * (size_t)m->blocks; ++i) {
-        m->u[i] = m->tried[i] + part * m->way[i];
+    double *u = of_group(g, m->u);
+    const double *tried = of_group(g, m->tried), *way = of_group(g, m->way);
+    for (size_t i = 0; i < size_of(g); ++i) {
+        u[i] = tried[i] + part * way[i];
     }
 }
 
@@ -184,28 +247,48 @@ static double product(const double *a, const double *b, size_t count)
     return sum;
 }
 
-// How the function grows at a part of the way; *value: itself.
-static double slope_at(plumb_world *world, double h, double part, double *value)
+// How a part of the function grows along the way: `right` is what that part adds to the right side.
+static double slope_of(const pl_soft_matrix *m, const pl_soft_group *g, double *right)
 {
-    const pl_soft_matrix *m = &world->softbodies.step->matrix;
-    try_part(world->softbodies.step, part);
-    *value = evaluate(world, h, PL_SOFT_SLOPES);
-    return -product(m->right, m->way, 3 * (size_t)m->blocks);
+    return -product(of_group(g, right), of_group(g, m->way), size_of(g));
+}
+
+static double slope_of_triangles(const pl_soft_matrix *m, const pl_soft_group *g)
+{
+    return g->triangles ? slope_of(m, g, m->sheets) : 0;
+}
+
+// How the function grows at a part of the way, but for its triangles.
+static double rest_at(plumb_world *world, const pl_soft_group *g, double h, double part)
+{
+    pl_soft_matrix *m = &world->softbodies.step->matrix;
+    try_part(m, g, part);
+    change(world, g);
+    pl_soft_clear_right(m, g->first_block, g->end_block);
+    evaluate_rest(world, g, h, PL_SOFT_SLOPES);
+    return slope_of(m, g, m->right);
 }
 
 // The part of a way along which the function falls the most: it is convex but for what folds, and its slope passes 0 there. By chords,
 // of which an end that stays counts half (Dowell, Jarratt 1971). Near enough to exact where steps are halved (Armijo 1966), for
 // what friction holds lies in a fold of the function: a way to halve ends before or behind it, and the passes go to and fro over it.
-static double best_part(plumb_world *world, double h, double before, double gain)
+// Triangles, which cost the most, have no folds: their slope is taken as even between the ends of the way.
+static double best_part(plumb_world *world, const pl_soft_group *g, double h, double before,
+                        double gain)
 {
-    double value, high = 1, at_high = slope_at(world, h, 1, &value), low = 0, at_low = -gain;
+    const pl_soft_matrix *m = &world->softbodies.step->matrix;
+    const double sheets = slope_of_triangles(m, g);
+    try_part(m, g, 1);
+    const double value = evaluate(world, g, h, PL_SOFT_SLOPES);
+    const double more = slope_of_triangles(m, g) - sheets;
+    double high = 1, at_high = slope_of(m, g, m->right), low = 0, at_low = -gain;
     if (value <= before - ENOUGH_OF_IT * gain || at_high <= 0) {
         return 1;
     }
     double part = 1;
     for (int i = 0, kept = 0; i < CHORDS && high - low > NARROW; ++i) {
         part = low - at_low * (high - low) / (at_high - at_low);
-        const double at = slope_at(world, h, part, &value);
+        const double at = rest_at(world, g, h, part) + sheets + part * more;
         if (fabs(at) < LEVEL * gain) {
             break;
         }
@@ -223,20 +306,21 @@ static double best_part(plumb_world *world, double h, double before, double gain
 }
 
 // A pass of Newton's iteration. Twice what is to be gained by it: no number where there is none.
-static double pass(plumb_world *world, double h, double enough)
+static double pass(plumb_world *world, const pl_soft_group *g, double h, double enough)
 {
-    pl_soft_step *s = world->softbodies.step;
-    pl_soft_matrix *m = &s->matrix;
-    const size_t count = 3 * (size_t)m->blocks, bytes = count * sizeof(double);
-    const double before = evaluate(world, h, PL_SOFT_ALL);
-    memcpy(m->tried, m->u, bytes);
-    memcpy(m->slope, m->right, bytes);
-    pl_soft_factor(m);
-    pl_soft_solve(m);
-    memcpy(m->way, m->right, bytes);
-    const double gain = product(m->slope, m->way, count);
+    pl_soft_matrix *m = &world->softbodies.step->matrix;
+    const size_t count = size_of(g), bytes = count * sizeof(double);
+    const double before = evaluate(world, g, h, PL_SOFT_ALL);
+    double *right = of_group(g, m->right), *way = of_group(g, m->way);
+    double *slope = of_group(g, m->slope);
+    memcpy(of_group(g, m->tried), of_group(g, m->u), bytes);
+    memcpy(slope, right, bytes);
+    pl_soft_factor(m, g->first_block, g->end_block);
+    pl_soft_solve(m, g->first_block, g->end_block);
+    memcpy(way, right, bytes);
+    const double gain = product(slope, way, count);
     const bool goes_on = gain > enough && gain < 1e300;
-    try_part(s, goes_on ? best_part(world, h, before, gain) : 1);
+    try_part(m, g, goes_on ? best_part(world, g, h, before, gain) : 1);
     return gain;
 }
 
@@ -267,46 +351,68 @@ static void store_substep(plumb_world *world, double h)
 }
 
 // [kg] of nodes and of bodies that are unknowns.
-static double moved_mass(const pl_soft_step *s)
+static double moved_mass(const pl_soft_step *s, const pl_soft_group *g)
 {
-    double sum = s->mass;
-    for (uint32_t i = 0; i < s->body_count; ++i) {
-        sum += bodies_of(s)[i].block != PL_NONE ? bodies_of(s)[i].mass : 0;
+    double sum = g->mass;
+    for (uint32_t k = g->first_body; k < g->end_body; ++k) {
+        sum += body_of(s, k)->mass;
     }
     return sum;
+}
+
+static bool has_contacts(const pl_soft_step *s, const pl_soft_group *g)
+{
+    return pl_soft_members(s)[g->end_member - 1].end_contact >
+           pl_soft_members(s)[g->first_member].first_contact;
+}
+
+// Rounds of at most so many passes. Whether the group has settled.
+static bool settle(plumb_world *world, pl_soft_group *g, double h, int passes)
+{
+    const pl_soft_step *s = world->softbodies.step;
+    const double fall = h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
+    const double small = SMALL * fall, told = TOLD * fall;
+    const double enough = g->mass * (small * small + 1e-12);
+    const bool touches = has_contacts(s, g);
+    bool settled = false;
+    g->pass = 0;
+    for (int round = 0; round < ROUNDS && (round == 0 || pl_soft_bind(s, g)); ++round) {
+        const int until = g->pass + passes;
+        double gain = INFINITY;
+        while (g->pass < until && (gain > enough || (g->pass < 3 && touches))) {
+            gain = pass(world, g, h, enough);
+            if (!(gain < 1e300)) { // no number: as if nothing pulled
+                guess(world, g, h);
+                break;
+            }
+            ++g->pass;
+        }
+        settled = gain <= moved_mass(s, g) * (told * told + 1e-12);
+        evaluate(world, g, h, PL_SOFT_VALUE);
+        if (!settled) {
+            break;
+        }
+    }
+    return settled;
 }
 
 void pl_soft_newton(plumb_world *world, double h, int passes)
 {
     pl_soft_step *s = world->softbodies.step;
+    pl_soft_group *groups = pl_soft_groups(s);
     see_bodies(world, h * s->done, h);
     pl_soft_feel_winds(world, h * (s->done + 0.5));
     pl_soft_turn_pushes(world, h);
-    guess(world, h);
-    pl_soft_change(s); // where they are on their way to
+    for (uint32_t k = 0; k < s->group_count; ++k) {
+        guess(world, &groups[k], h);
+        change(world, &groups[k]); // where they are on their way to
+    }
     pl_soft_find_contacts(world, h);
     const double fall = h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
-    const double small = SMALL * fall, told = TOLD * fall;
-    const double enough = s->mass * (small * small + 1e-12);
-    s->pass = 0;
     s->creep = CREEP * fall > CREEP_LEAST ? CREEP * fall : CREEP_LEAST;
-    bool settled = false;
-    for (int round = 0; round < ROUNDS && (round == 0 || pl_soft_bind(s)); ++round) {
-        const int until = s->pass + passes;
-        double gain = INFINITY;
-        while (s->pass < until && (gain > enough || (s->pass < 3 && s->contact_count > 0))) {
-            gain = pass(world, h, enough);
-            if (!(gain < 1e300)) { // no number: as if nothing pulled
-                guess(world, h);
-                break;
-            }
-            ++s->pass;
-        }
-        settled = gain <= moved_mass(s) * (told * told + 1e-12);
-        evaluate(world, h, PL_SOFT_VALUE);
-        if (!settled) {
-            break;
-        }
+    bool settled = true;
+    for (uint32_t k = 0; k < s->group_count; ++k) {
+        settled = settle(world, &groups[k], h, passes) && settled;
     }
     s->missed += settled ? 0 : 1;
     store_substep(world, h);

@@ -75,10 +75,10 @@ void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y)
     to[2] += b == NULL ? 0 : (p->rx * y - p->ry * x) * b->locked_w;
 }
 
-void pl_soft_change(const pl_soft_step *s)
+void pl_soft_change(const pl_soft_step *s, uint32_t first, uint32_t count)
 {
     pl_soft_point *points = s->points.data;
-    for (uint32_t i = 0; i < s->point_count; ++i) {
+    for (uint32_t i = first; i < first + count; ++i) {
         pl_soft_point *p = &points[i];
         const double *u = s->matrix.u + (p->block == PL_NONE ? 0 : 3 * (size_t)p->block);
         if (p->block == PL_NONE) {

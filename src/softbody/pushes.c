@@ -115,19 +115,29 @@ void pl_soft_turn_pushes(plumb_world *world, double h)
     }
 }
 
-double pl_soft_add_pushes(const pl_soft_step *s, double h, pl_soft_fill fill)
+static double add_push(const pl_soft_step *s, uint32_t i, double h, pl_soft_fill fill)
 {
+    const pl_soft_point *p = pl_soft_point_at(s, i);
+    const double m = p->carried, x = h * p->push_x, y = h * p->push_y;
+    if (fill != PL_SOFT_VALUE && (m > 0 || x != 0 || y != 0)) {
+        const double own[4] = { m, 0, 0, m };
+        pl_soft_push(s, i, x - m * p->cx, y - m * p->cy);
+        if (fill == PL_SOFT_ALL) {
+            pl_soft_add(s, i, i, own);
+        }
+    }
+    return m * (p->cx * p->cx + p->cy * p->cy) / 2 - (x * p->cx + y * p->cy);
+}
+
+double pl_soft_add_pushes(const plumb_world *world, const pl_soft_group *g, double h,
+                          pl_soft_fill fill)
+{
+    const pl_soft_step *s = world->softbodies.step;
     double energy = 0;
-    for (uint32_t i = 0; i < s->point_count && s->pushed; ++i) {
-        const pl_soft_point *p = pl_soft_point_at(s, i);
-        const double m = p->carried, x = h * p->push_x, y = h * p->push_y;
-        energy += m * (p->cx * p->cx + p->cy * p->cy) / 2 - (x * p->cx + y * p->cy);
-        if (fill != PL_SOFT_VALUE && (m > 0 || x != 0 || y != 0)) {
-            const double own[4] = { m, 0, 0, m };
-            pl_soft_push(s, i, x - m * p->cx, y - m * p->cy);
-            if (fill == PL_SOFT_ALL) {
-                pl_soft_add(s, i, i, own);
-            }
+    for (uint32_t k = g->first_member; k < g->end_member && s->pushed; ++k) {
+        const pl_soft_member *m = &pl_soft_members(s)[k];
+        for (uint32_t n = 0; n < pl_softbody_items(&world->softbodies)[m->item].nodes; ++n) {
+            energy += add_push(s, m->at.point + n, h, fill);
         }
     }
     return energy;

@@ -42,8 +42,21 @@ bool pl_soft_make_step(plumb_world *world);
 bool pl_softbodies_find(plumb_world *world, plumb_real dt);
 // Marks bodies that are solved with soft ones: they are of one cluster. True if there are any.
 bool pl_softbodies_couple(const plumb_world *world, uint8_t *called);
-// Behind the graph: their slots, the structure of the system. False when out of memory.
+
+//---- plan.c --------------------------------------------------------------------------------------
+
+// Behind the graph: slots, groups, the structure of the system. False when out of memory.
 bool pl_softbodies_plan(plumb_world *world);
+
+static inline pl_soft_member *pl_soft_members(const pl_soft_step *s)
+{
+    return (pl_soft_member *)s->members.data;
+}
+
+static inline pl_soft_group *pl_soft_groups(const pl_soft_step *s)
+{
+    return (pl_soft_group *)s->groups.data;
+}
 
 //---- foresee.c -----------------------------------------------------------------------------------
 
@@ -62,7 +75,8 @@ void pl_soft_drop_pushes(plumb_world *world);
 // They go with the soft bodies as these turn: a substep begins.
 void pl_soft_turn_pushes(plumb_world *world, double h);
 // As pl_soft_elements.
-double pl_soft_add_pushes(const pl_soft_step *s, double h, pl_soft_fill fill);
+double pl_soft_add_pushes(const plumb_world *world, const pl_soft_group *g, double h,
+                          pl_soft_fill fill);
 
 //---- newton.c ------------------------------------------------------------------------------------
 
@@ -75,13 +89,14 @@ void pl_soft_newton(plumb_world *world, double h, int passes); // [s]; at most s
 // The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted); sizes stand in step->shapes. False when out of
 // memory.
 bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs);
-void pl_soft_clear(pl_soft_matrix *m);
-void pl_soft_clear_right(pl_soft_matrix *m); // its right side alone
+// What follows is about blocks [first, end): those of a group, or all.
+void pl_soft_clear(pl_soft_matrix *m, uint32_t first, uint32_t end);
+void pl_soft_clear_right(pl_soft_matrix *m, uint32_t first, uint32_t end); // its right side alone
 // Place of an entry, row > column; both are neighbours.
 double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column);
 // Factors the matrix; solves for `right`, into itself.
-void pl_soft_factor(pl_soft_matrix *m);
-void pl_soft_solve(const pl_soft_matrix *m);
+void pl_soft_factor(pl_soft_matrix *m, uint32_t first, uint32_t end);
+void pl_soft_solve(const pl_soft_matrix *m, uint32_t first, uint32_t end);
 
 //---- points.c ------------------------------------------------------------------------------------
 
@@ -96,8 +111,8 @@ void pl_soft_follow(const pl_soft_step *s, const pl_soft_point *p, double j[6]);
 void pl_soft_add(const pl_soft_step *s, uint32_t a, uint32_t b, const double k[4]);
 // Adds an impulse at a point.
 void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y);
-// What u adds to the velocities of points.
-void pl_soft_change(const pl_soft_step *s);
+// What u adds to the velocities of points [first, first + count).
+void pl_soft_change(const pl_soft_step *s, uint32_t first, uint32_t count);
 
 //---- settle.c ------------------------------------------------------------------------------------
 
@@ -106,9 +121,10 @@ void pl_soft_settle_edges(plumb_world *world);
 
 //---- elements.c ----------------------------------------------------------------------------------
 
-// The function that is to be least, of all elements, at the velocities that u adds [kg m^2/s^2]. As `fill` says their
-// impulses are added to `right` [N s], their stiffness to the matrix.
-double pl_soft_elements(plumb_world *world, double h, pl_soft_fill fill);
+// The function of a group that is to be least, of its triangles, and of all its other elements, at the velocities that u adds
+// [kg m^2/s^2]. As `fill` says their impulses are added to `right` [N s], their stiffness to the matrix.
+double pl_soft_triangles(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill);
+double pl_soft_elements(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill);
 // [J] in all elements; [m^2], [N/m] of the gas of one.
 double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at);
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at);
@@ -137,7 +153,7 @@ bool pl_soft_is_blown(const plumb_world *world, const pl_softbody *item);
 double pl_soft_gap(const plumb_world *world, const pl_softbody *item, pl_softbody_place at,
                    uint32_t row, uint32_t piece, double dt);
 
-//---- contacts.c ----------------------------------------------------------------------------------
+//---- near.c --------------------------------------------------------------------------------------
 
 // Pieces near nodes, with their bodies; which nodes. False when out of memory.
 bool pl_soft_find_near(plumb_world *world, double dt);
@@ -146,17 +162,20 @@ uint32_t pl_soft_body_of(plumb_world *world,
 // The corners of a piece about its body's centre of mass.
 void pl_soft_see_piece(const plumb_world *world, uint32_t row, uint32_t piece,
                        pl_soft_obstacle *out);
-// Way out of a convex piece: distance of a point from its surface, below 0 inside, and the outward normal.
-double pl_soft_distance(const pl_soft_obstacle *o, double x, double y, double n[2]);
 // [m] that the pieces of a row may move in a step.
 double pl_soft_way_of_row(const plumb_world *world, uint32_t row, double dt);
 // It is solid, and the filters of both let them touch.
 bool pl_soft_meets(const plumb_world *world, uint32_t piece, const pl_softbody *item);
+
+//---- contacts.c ----------------------------------------------------------------------------------
+
+// Way out of a convex piece: distance of a point from its surface, below 0 inside, and the outward normal.
+double pl_soft_distance(const pl_soft_obstacle *o, double x, double y, double n[2]);
 // Contacts of a substep.
 void pl_soft_find_contacts(plumb_world *world, double h);
 // As pl_soft_elements. What holds by friction goes by the normal forces that bound it: pl_soft_bind, and the first passes.
-double pl_soft_press(pl_soft_step *s, double h, pl_soft_fill fill);
+double pl_soft_press(const pl_soft_step *s, const pl_soft_group *g, double h, pl_soft_fill fill);
 // Bounds friction by the normal forces of now. Whether that changed the bounds by much.
-bool pl_soft_bind(pl_soft_step *s);
+bool pl_soft_bind(const pl_soft_step *s, pl_soft_group *g);
 
 #endif

@@ -1,5 +1,5 @@
 // step.c - soft bodies in a step: gathered before the graph, taken through the substeps with the bodies that they pull or
-// touch as unknowns of one implicit system, stored when nothing can fail any more.
+// touch as unknowns of one implicit system each group (plan.c), stored when nothing can fail any more.
 //
 // In each substep Newton's iteration finds what it adds to velocities, u: M u = h f(u). All bodies that are near are of
 // cluster 0, which one thread solves; they get u / h as their acceleration, and the rigid solver moves them by
@@ -7,7 +7,6 @@
 //
 // Reads: soft bodies, rows, pieces, solver bodies. Writes: accelerations; nodes and edges; times of rest. Order: before
 // "called", behind the graph, with the forces of the moment, behind "motion". Cost: see DECISIONS.md.
-#include "core/sort.h"
 #include "effects/effects.h"
 #include "schema/passes.h"
 #include "softbody/softbody.h"
@@ -38,13 +37,16 @@ void pl_softbodies_free(pl_memory *memory, pl_softbodies *s)
     }
     if (s->step != NULL) {
         pl_soft_step *t = s->step;
-        pl_buffer *scratch[] = { &t->points, &t->bodies, &t->obstacles, &t->near_,   &t->contacts,
-                                 &t->keys,   &t->order,  &t->index,     &t->numbers, &t->shapes,
-                                 &t->rows,   &t->pulls,  &t->winds,     &t->pushes };
+        pl_buffer *scratch[] = { &t->points,   &t->bodies,  &t->obstacles, &t->near_,
+                                 &t->contacts, &t->keys,    &t->index,     &t->numbers,
+                                 &t->shapes,   &t->rows,    &t->pulls,     &t->winds,
+                                 &t->pushes,   &t->members, &t->groups,    &t->grouped };
         for (size_t i = 0; i < sizeof scratch / sizeof scratch[0]; ++i) {
             pl_buffer copy = *scratch[i];
             pl_buffer_free(memory, &copy);
         }
+        pl_elimination order = t->elimination;
+        pl_elimination_free(memory, &order);
         pl_resize(memory, t, sizeof *t, 0);
     }
 }
@@ -80,7 +82,6 @@ static bool is_moored(const plumb_world *world, const pl_softbody *item, uint32_
     return moored;
 }
 
-// Adds to the mass of all nodes.
 static void gather_nodes(const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
 {
     const pl_softbodies *all = &world->softbodies;
@@ -88,7 +89,6 @@ static void gather_nodes(const plumb_world *world, const pl_softbody *item, pl_s
     const pl_soft_shove *pushes = all->step->pushed ? all->step->pushes.data : NULL;
     const double mass = mass_of(all, item, at.node);
     const double heavy = (pushes != NULL ? pushes[at.node].heavy : 0) + mass;
-    all->step->mass += mass;
     for (uint32_t i = 0; i < item->nodes; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[at.node + i];
         points_of(all->step)[at.point + i] =
@@ -138,11 +138,11 @@ static bool gather(plumb_world *world)
     const pl_softbodies *all = &world->softbodies;
     pl_soft_step *s = all->step;
     pl_softbody_place at = { 0 };
-    s->body_count = 0;
-    s->mass = 0;
+    s->body_count = s->member_count = 0;
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
         if (!item->asleep) {
+            pl_soft_members(s)[s->member_count++] = (pl_soft_member){ .item = i, .at = at };
             gather_nodes(world, item, at);
             if (!gather_pins(world, item, at)) {
                 return false;
@@ -174,6 +174,8 @@ static bool reserve(plumb_world *world)
                              all->node_count * sizeof(pl_soft_point)) &&
            pl_buffer_reserve(&world->memory, &all->step->pulls,
                              all->edge_count * sizeof(pl_soft_pull)) &&
+           pl_buffer_reserve(&world->memory, &all->step->members,
+                             2 * (size_t)all->count * sizeof(pl_soft_member)) &&
            pl_buffer_reserve(&world->memory, &all->step->rows, (size_t)world->dynamic_count + 1);
 }
 
@@ -218,212 +220,13 @@ bool pl_softbodies_couple(const plumb_world *world, uint8_t *called)
     return s->coupled > 0;
 }
 
-//---- the structure -------------------------------------------------------------------------------
-
-typedef struct pairs {
-    pl_keyed *keys;
-    const pl_soft_point *points;
-    uint32_t count;
-    bool by_block; // else by point, both ways, of nodes that are free
-} pairs;
-
-static void pair(pairs *to, uint32_t a, uint32_t b)
-{
-    const pl_soft_point *pa = &to->points[a], *pb = &to->points[b];
-    const uint32_t ia = to->by_block ? pa->block : a, ib = to->by_block ? pb->block : b;
-    if (pa->block == PL_NONE || pb->block == PL_NONE || ia == ib) {
-        return;
-    }
-    if (to->by_block) {
-        to->keys[to->count++] = (pl_keyed){ ia > ib ? pl_key(ia, ib) : pl_key(ib, ia), 0, 0 };
-    } else if (pa->body == PL_NONE && pb->body == PL_NONE) {
-        to->keys[to->count++] = (pl_keyed){ pl_key(ia, ib), 0, 0 };
-        to->keys[to->count++] = (pl_keyed){ pl_key(ib, ia), 0, 0 };
-    }
-}
-
-static void pair_three(pairs *to, uint32_t a, uint32_t b, uint32_t c)
-{
-    pair(to, a, b);
-    pair(to, b, c);
-    pair(to, a, c);
-}
-
-static void pair_elements_of(const pl_softbodies *all, const pl_softbody *item,
-                             pl_softbody_place at, pairs *to)
-{
-    const uint32_t n = at.point;
-    for (uint32_t k = 0; k < item->edges; ++k) {
-        const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
-        if ((e->flags & PLUMB_EDGE_TORN) == 0) {
-            pair(to, n + e->a, n + e->b);
-        }
-    }
-    for (uint32_t k = 0; k < item->bends; ++k) {
-        const plumb_softbody_bend *e = &pl_softbody_bends(all)[at.bend + k];
-        pair_three(to, n + e->a, n + e->b, n + e->c);
-    }
-    for (uint32_t k = 0; k < item->triangles; ++k) {
-        const plumb_softbody_triangle *e = &pl_softbody_triangles(all)[at.triangle + k];
-        pair_three(to, n + e->a, n + e->b, n + e->c);
-    }
-}
-
-// Neighbours by elements.
-static void pair_elements(const pl_softbodies *all, pairs *to)
-{
-    pl_softbody_place at = { 0 };
-    for (uint32_t i = 0; i < all->count; ++i) {
-        const pl_softbody *item = &pl_softbody_items(all)[i];
-        if (!item->asleep) {
-            pair_elements_of(all, item, at, to);
-        }
-        at = pl_softbody_behind(at, item);
-    }
-}
-
-// The nodes that are free in breadth-first order, last ones first: a narrow band (reverse Cuthill-McKee 1969). `keys`:
-// neighbours both ways. Gives them their blocks; returns how many.
-static uint32_t order_nodes(pl_soft_step *s, const pl_keyed *keys, uint32_t count)
-{
-    pl_soft_point *points = points_of(s);
-    uint32_t *first = s->order.data, *queue = first + s->point_count + 1;
-    uint32_t head = 0, tail = 0, k = 0, free_count = 0;
-    for (uint32_t i = 0; i <= s->point_count; ++i) {
-        while (k < count && (uint32_t)(keys[k].key >> 32) < i) {
-            ++k;
-        }
-        first[i] = k;
-    }
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        free_count += points[i].block == 0;
-    }
-    // Blocks: 0 not reached, 1 in the first sweep, 2 in the second: that begins where the first one ended.
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        uint32_t start = i;
-        for (uint32_t sweep = 1; sweep <= 2 && points[i].block + 1 == sweep; ++sweep) {
-            tail = head;
-            queue[tail++] = start;
-            points[start].block = sweep;
-            for (uint32_t at = head; at < tail; ++at) {
-                const uint32_t node = queue[at];
-                for (uint32_t p = first[node]; p < first[node + 1]; ++p) {
-                    const uint32_t next = (uint32_t)keys[p].key;
-                    if (points[next].block + 1 == sweep) {
-                        points[next].block = sweep;
-                        queue[tail++] = next;
-                    }
-                }
-            }
-            start = queue[tail - 1];
-        }
-        head = tail > head && points[i].block == 2 ? tail : head;
-    }
-    for (uint32_t i = 0; i < free_count; ++i) {
-        points[queue[i]].block = free_count - 1 - i;
-    }
-    return free_count;
-}
-
-// Gives bodies what the solver has of them, and blocks behind those of nodes.
-static uint32_t take_slots(plumb_world *world, uint32_t blocks)
-{
-    pl_soft_step *s = world->softbodies.step;
-    const uint32_t *slots = world->solver.slots.data;
-    for (uint32_t i = 0; i < s->body_count; ++i) {
-        pl_soft_body *b = &bodies_of(s)[i];
-        if (b->row >= world->dynamic_count || s->coupled == 0) {
-            continue;
-        }
-        b->slot = slots[b->row];
-        if (b->slot == PL_NONE) {
-            continue;
-        }
-        const pl_solver_body *now = &pl_solver_bodies(&world->solver)[b->slot];
-        b->block = blocks++;
-        b->mass = now->inv_mass > 0 ? 1 / (double)now->inv_mass : b->mass;
-        b->inertia = now->inv_inertia > 0 ? 1 / (double)now->inv_inertia : b->inertia;
-        b->locked_w = now->inv_inertia > 0 ? b->locked_w : 0;
-        b->mass = b->mass > 0 ? b->mass : 1;
-        b->inertia = b->inertia > 0 ? b->inertia : 1;
-    }
-    return blocks;
-}
-
-static uint32_t pair_rest(const plumb_world *world, pairs *to, uint32_t blocks)
-{
-    const pl_softbodies *all = &world->softbodies;
-    const pl_soft_step *s = all->step;
-    const pl_soft_near *near = s->near_.data;
-    for (uint32_t i = 0; i < s->near_count; ++i) {
-        const pl_soft_obstacle *o = (const pl_soft_obstacle *)s->obstacles.data + near[i].obstacle;
-        const uint32_t a = points_of(s)[near[i].point].block, b = bodies_of(s)[o->body].block;
-        if (b != PL_NONE) {
-            to->keys[to->count++] = (pl_keyed){ pl_key(b, a), 0, 0 };
-        }
-    }
-    pl_softbody_place at = { 0 };
-    for (uint32_t i = 0; i < all->count; ++i) {
-        const pl_softbody *item = &pl_softbody_items(all)[i];
-        for (uint32_t k = 0; k < item->ring && !item->asleep; ++k) {
-            const uint32_t node = at.point + pl_softbody_rings(all)[at.ring + k];
-            if (points_of(s)[node].block != PL_NONE) {
-                to->keys[to->count++] =
-                    (pl_keyed){ pl_key(blocks, points_of(s)[node].block), 0, 0 };
-            }
-        }
-        blocks += item->ring > 0 && !item->asleep;
-        at = pl_softbody_behind(at, item);
-    }
-    return blocks;
-}
-
-bool pl_softbodies_plan(plumb_world *world)
-{
-    const pl_softbodies *all = &world->softbodies;
-    pl_soft_step *s = all->step;
-    const size_t most = 2 * ((size_t)all->edge_count + 3 * (size_t)all->bend_count +
-                             3 * (size_t)all->triangle_count) +
-                        s->near_count + all->ring_count;
-    const size_t blocks_most = (size_t)s->point_count + s->body_count + all->count;
-    if (!pl_buffer_reserve(&world->memory, &s->keys, (most + 1) * sizeof(pl_keyed)) ||
-        !pl_buffer_reserve(&world->memory, &s->order,
-                           (2 * (size_t)s->point_count + 2) * sizeof(uint32_t)) ||
-        !pl_buffer_reserve(&world->memory, &s->shapes, blocks_most + 1)) {
-        return false;
-    }
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        points_of(s)[i].block = points_of(s)[i].pinned ? PL_NONE : 0;
-    }
-    pairs to = { s->keys.data, points_of(s), 0, false };
-    pair_elements(all, &to);
-    pl_sort_keyed(to.keys, to.count);
-    const uint32_t nodes = order_nodes(s, to.keys, to.count);
-    const uint32_t rigid = take_slots(world, nodes);
-    for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_point *p = &points_of(s)[i];
-        if (p->body != PL_NONE) {
-            p->block = bodies_of(s)[p->body].block;
-        }
-    }
-    to = (pairs){ s->keys.data, points_of(s), 0, true };
-    pair_elements(all, &to);
-    const uint32_t blocks = pair_rest(world, &to, rigid);
-    pl_sort_keyed(to.keys, to.count);
-    uint8_t *size = s->shapes.data;
-    for (uint32_t i = 0; i < blocks; ++i) {
-        size[i] = i < nodes ? 2 : i < rigid ? 3 : 1;
-    }
-    return pl_soft_structure(&world->memory, s, blocks, to.count);
-}
+//---- substeps ------------------------------------------------------------------------------------
 
 plumb_result pl_run_soft_slots(plumb_world *world, plumb_real dt)
 {
     (void)dt;
     return pl_softbodies_plan(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
-
-//---- substeps ------------------------------------------------------------------------------------
 
 void pl_softbodies_row(pl_substep *sub)
 {

@@ -86,9 +86,15 @@ static bool either(const plumb_world *world, const char **reason, want_fn *first
     return wanted;
 }
 
-bool pl_want_broad(const plumb_world *world, const char **reason)
+static bool want_pairs(const plumb_world *world, const char **reason)
 {
     return either(world, reason, pl_want_collision, pl_want_sensing);
+}
+
+// Soft bodies look for what is near them in its grids.
+bool pl_want_broad(const plumb_world *world, const char **reason)
+{
+    return either(world, reason, want_pairs, pl_want_softbodies);
 }
 
 bool pl_want_surfaces(const plumb_world *world, const char **reason)

@@ -2,7 +2,7 @@
 #ifndef PL_TABLE_SOFTBODY_H
 #define PL_TABLE_SOFTBODY_H
 
-#include "core/memory.h"
+#include "core/elimination.h"
 #include "core/near.h"
 #include "plumb/softbody.h"
 
@@ -111,18 +111,37 @@ typedef struct pl_soft_matrix {
     double *diagonal, *off;  // 9 a block
     double *pivot, *split, *l, *work;
     double *right, *u, *tried, *slope, *way; // 3 a block
+    double *sheets;          // likewise: what triangles add to `right`
 } pl_soft_matrix;
 
+// A soft body that is awake, in a step.
+typedef struct pl_soft_member {
+    uint32_t item, gas;                    // of soft bodies; its block, PL_NONE: no gas
+    pl_softbody_place at;
+    uint32_t first_near, end_near;         // what its nodes are near to
+    uint32_t first_contact, end_contact;   // of a substep
+} pl_soft_member;
+
+// Soft bodies that hang together, with the bodies that they pull and touch: they are solved by themselves.
+typedef struct pl_soft_group {
+    uint32_t first_member, end_member;
+    uint32_t first_body, end_body;   // of `grouped`: those that are unknowns
+    uint32_t first_block, end_block;
+    double mass;    // [kg] of all nodes
+    bool triangles; // it has some
+    int pass;    // of this substep's iteration; friction acts from the second on
+} pl_soft_group;
+
 typedef struct pl_soft_step {
-    pl_buffer points, bodies, obstacles, near_, contacts, keys, order, index, numbers, shapes, rows, pulls, winds, pushes;
-    uint32_t point_count, body_count, obstacle_count, near_count, contact_count;
+    pl_buffer points, bodies, obstacles, near_, contacts, keys, index, numbers, shapes, rows, pulls, winds, pushes;
+    pl_buffer members, groups, grouped; // pl_soft_member, by their groups; pl_soft_group; uint32_t: bodies
+    pl_elimination elimination;
+    uint32_t point_count, body_count, obstacle_count, near_count, contact_count, member_count, group_count;
     uint32_t wind_count; // volumes of fluid that nodes may be in
     bool pushed;         // in this step, by the liquid; pushes: pl_soft_shove, one a node
     uint32_t coupled; // bodies that are unknowns; rows: a byte a dynamic row, whether it is one
     int done;         // substeps
-    double mass;      // [kg] of all nodes
     uint32_t missed;  // substeps of this step that ended before they had settled
-    int pass;         // of this substep's iteration; friction acts from the second on
     double creep;     // [m/s] of slip, below which friction is a damper
     pl_soft_matrix matrix;
 } pl_soft_step;
