@@ -115,16 +115,40 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
     return vn + vmax(s, zero) * splat(call->inv_h);
 }
 
-// A point that bore nothing and pushes now has been struck, at the speed v [m/s] that it had; so has, in the first
-// sweep of a step, one that bears more than in the step before.
-WIDE_INLINE void note_strike(extra *e, const pl_contact_call *call, vf load, vf impulse, vf v,
-                             vf apart)
+// What the forces of the substep made of the velocities of both bodies, before anything else pushed them.
+WIDE_PART void velocities_before(const bundle *c, const pl_contact_call *call, body *a, body *b)
 {
-    vm struck = (load <= splat(call->unloaded)) & (impulse > splat(0)) & (-v > e->struck);
-    vf way = vmax(apart, splat(0));
-    vf time = splat(call->since) + vmin(way / sel(struck, -v, splat(1)), splat(call->h));
-    e->struck = sel(struck, -v, e->struck);
-    e->struck_at = sel(struck, time, e->struck_at);
+    body *of[2] = { a, b };
+    const uint32_t *places[2] = { c->a, c->b };
+    for (int k = 0; k < 2; ++k) {
+        const near_real *row[PL_WIDTH];
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            row[i] = &call->motions[slot_at(places[k][i])].ux;
+        }
+        vf r[4];
+        gather4(r, row, 0);
+        of[k]->vx = r[0], of[k]->vy = r[1], of[k]->w = r[2];
+    }
+}
+
+// A point that bore nothing and pushes now has been struck, at the speed that it had when the substep began: another contact of the
+// body may have turned it since (DECISIONS.md). Or at the speed that it has now, where another threw it at this one. So has, in
+// the first sweep of a step, one that bears more than in the step before.
+WIDE_PART void note_strikes(extra *e, const bundle *c, const pl_contact_call *call,
+                            const vm struck[2], const vf speed[2], const vf gap[2])
+{
+    body a, b;
+    velocities_before(c, call, &a, &b);
+    const vf along = c->nx * (b.vx - a.vx) + c->ny * (b.vy - a.vy);
+    for (int j = 0; j < 2; ++j) {
+        const vf before = along + c->p[j].rbn * b.w - c->p[j].ran * a.w;
+        const vf v = sel(struck[j], vmax(-speed[j], -before), e->struck);
+        const vf way = vmax(gap[j], splat(0));
+        const vm faster = v > e->struck;
+        const vf time = splat(call->since) + vmin(way / sel(faster, v, splat(1)), splat(call->h));
+        e->struck = sel(faster, v, e->struck);
+        e->struck_at = sel(faster, time, e->struck_at);
+    }
 }
 
 // `e` not null: notes who is struck.
@@ -161,8 +185,13 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, extra *e, poin
     vf impulse0 = total0 - old0;
     vf impulse1 = total1 - old1;
     if (e != NULL) {
-        note_strike(e, call, p[0].ln, impulse0, v0, s0);
-        note_strike(e, call, p[1].ln, impulse1, v1, s1);
+        const vf unloaded = splat(call->unloaded);
+        const vm struck0 = (p[0].ln <= unloaded) & (impulse0 > zero) & (-v0 > e->struck);
+        const vm struck1 = (p[1].ln <= unloaded) & (impulse1 > zero) & (-v1 > e->struck);
+        if (any(struck0 | struck1)) {
+            note_strikes(e, c, call, (vm[2]){ struck0, struck1 }, (vf[2]){ v0, v1 },
+                         (vf[2]){ s0, s1 });
+        }
     }
     p[0].ln = s != NULL ? (vf)(total0 - s->pull[0]) : total0;
     p[1].ln = s != NULL ? (vf)(total1 - s->pull[1]) : total1;

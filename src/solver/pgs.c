@@ -36,6 +36,15 @@ static near_real normal_speed(const classic *c, const pl_classic_contact *m,
     return m->nx * (b->vx - a->vx) + m->ny * (b->vy - a->vy) + p->rbn * b->w - p->ran * a->w;
 }
 
+// Likewise of what the forces of the substep made of the velocities, before anything else pushed.
+static near_real speed_before(const classic *c, const pl_classic_contact *m,
+                              const pl_classic_point *p)
+{
+    const pl_solver_motion *a = &pl_solver_motions(c->solver)[m->a];
+    const pl_solver_motion *b = &pl_solver_motions(c->solver)[m->b];
+    return m->nx * (b->ux - a->ux) + m->ny * (b->uy - a->uy) + p->rbn * b->uw - p->ran * a->uw;
+}
+
 static near_real separation_now(const classic *c, const pl_classic_contact *m,
                                 const pl_classic_point *p)
 {
@@ -208,7 +217,8 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
     total = p->ln - p->mn * (speed + slack);
     total = total > -pull ? total : -pull;
     if (total > p->ln && p->ln <= c->unloaded) {
-        pl_classic_strike(m, -speed, s, c->since, c->h);
+        const near_real before = speed_before(c, m, p);
+        pl_classic_strike(m, before < speed ? -before : -speed, s, c->since, c->h);
     }
     push(c, m, p, total - p->ln, 0);
     p->ln = total;
