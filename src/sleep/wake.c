@@ -115,6 +115,15 @@ static void unmark_all(pl_sleep *s)
     s->marked_count = 0;
 }
 
+// What was made asleep since the last step, and something immovable that lies still: both are as the scene has them, in whatever
+// order they were made.
+static bool is_scenery(const plumb_world *world, uint32_t row, uint32_t sleeper)
+{
+    const pl_bodies *b = &world->bodies;
+    return b->type[row] != PLUMB_DYNAMIC && b->vx[row] == 0 && b->vy[row] == 0 && b->w[row] == 0 &&
+           pl_row_is_furnished(world, sleeper);
+}
+
 // Marks what the pairs of a list touch.
 static bool mark_touched(plumb_world *world, const pl_pair_list *list, real dt)
 {
@@ -135,8 +144,11 @@ static bool mark_touched(plumb_world *world, const pl_pair_list *list, real dt)
     }
     const pl_manifold *m = pl_manifolds(&s->touched);
     for (uint32_t i = 0; i < s->touched.manifold_count; ++i) {
-        mark(s, world->bodies.island[m[i].body_a]);
-        mark(s, world->bodies.island[m[i].body_b]);
+        const uint32_t a = m[i].body_a, b = m[i].body_b;
+        if (!is_scenery(world, a, b) && !is_scenery(world, b, a)) {
+            mark(s, world->bodies.island[a]);
+            mark(s, world->bodies.island[b]);
+        }
     }
     return true;
 }

@@ -71,8 +71,7 @@ void pl_sleep_stir(plumb_world *world, uint32_t row)
     }
 }
 
-// True for a body that was made asleep and that no step has seen yet.
-static bool is_furnished(const plumb_world *world, uint32_t row)
+bool pl_row_is_furnished(const plumb_world *world, uint32_t row)
 {
     uint32_t island = world->bodies.island[row];
     return island != PL_NONE &&
@@ -81,7 +80,7 @@ static bool is_furnished(const plumb_world *world, uint32_t row)
 
 void pl_sleep_disturb(plumb_world *world, uint32_t row)
 {
-    if (!is_furnished(world, row)) {
+    if (!pl_row_is_furnished(world, row)) {
         pl_sleep_stir(world, row);
     }
 }

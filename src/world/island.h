@@ -32,6 +32,8 @@ void pl_sleep_forget(plumb_world *world, uint32_t row);
 
 // Makes the new body of a row of the sleeping partition an island (room must be reserved).
 void pl_sleep_make(plumb_world *world, uint32_t row);
+// It was made asleep, and no step has seen it yet.
+bool pl_row_is_furnished(const plumb_world *world, uint32_t row);
 // Room for so many more islands, contacts and events of falling asleep.
 bool pl_islands_reserve(plumb_world *world, uint32_t islands, uint32_t contacts);
 // A new island without bodies (room must be reserved).

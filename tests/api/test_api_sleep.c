@@ -257,6 +257,59 @@ static void bodies_may_start_asleep(void **state)
     plumb_world_destroy(w);
 }
 
+static plumb_body slab(plumb_world *w, plumb_body_type type)
+{
+    plumb_body body = plumb_body_create(w, &(plumb_body_desc){ .type = type });
+    plumb_shape_create(w, body, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 5, R(0.5) } });
+    return body;
+}
+
+// A scene as a level has it: a floor, and a stack that sleeps on it, in whatever order they are made.
+static void what_starts_asleep_may_lie_on_something(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; ++k) {
+        const bool floor_first = k % 2 == 0, stepped = floor_first && k / 2 % 2 == 0,
+                   moves = k == 7;
+        const plumb_body_type type = k / 4 == 0 ? PLUMB_STATIC : PLUMB_KINEMATIC;
+        plumb_world *w;
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ 0 }, &w), PLUMB_OK);
+        plumb_body floor = PLUMB_NULL_INIT, crate[3];
+        if (floor_first) {
+            floor = slab(w, type);
+        }
+        if (stepped) {
+            steps(w, 1);
+        }
+        for (int i = 0; i < 3; ++i) {
+            const plumb_vec2 at = { 0, (plumb_real)(1 + i) };
+            crate[i] = plumb_body_create(w, &(plumb_body_desc){ .position = at, .asleep = true });
+            plumb_shape_create(
+                w, crate[i], &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+        }
+        if (!floor_first) {
+            floor = slab(w, type);
+        }
+        if (moves) {
+            plumb_body_set_velocity(w, floor, plumb_v2(R(0.1), 0));
+        }
+        steps(w, 60);
+        for (int i = 0; i < 3; ++i) {
+            assert_int_equal(plumb_body_is_awake(w, crate[i]), moves);
+        }
+        // What comes later is new to them.
+        plumb_body tile =
+            plumb_body_create(w, &(plumb_body_desc){ .type = type, .position = { 1, 2 } });
+        plumb_shape_create(w, tile,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+        steps(w, 1);
+        for (int i = 0; i < 3; ++i) { // those that it touches, and what these touch
+            assert_true(plumb_body_is_awake(w, crate[i]));
+        }
+        plumb_world_destroy(w);
+    }
+}
+
 static void sleeping_is_optional(void **state)
 {
     (void)state;
@@ -502,6 +555,7 @@ int main(void)
         cmocka_unit_test(a_sensor_may_sleep),
         cmocka_unit_test(bodies_are_put_to_sleep),
         cmocka_unit_test(bodies_may_start_asleep),
+        cmocka_unit_test(what_starts_asleep_may_lie_on_something),
         cmocka_unit_test(sleeping_is_optional),
         cmocka_unit_test(a_steady_force_lets_sleep),
         cmocka_unit_test(forces_of_sleeping_rows_do_not_add_up),
