@@ -131,69 +131,109 @@ static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair,
     return contact;
 }
 
-// The contacts of an island that sleeps: nothing has moved since.
-static int list_sleeping(const plumb_world *world, uint32_t island, uint32_t row,
-                         plumb_contact *contacts, int capacity, int count)
+// What is listed: `count` of all, of which the first `capacity` are told.
+typedef struct listing {
+    const plumb_world *world;
+    uint32_t row; // of whose contacts; PL_NONE: of all bodies
+    plumb_contact *contacts;
+    int capacity, count;
+} listing;
+
+static void list_one(listing *l, const pl_pair *pair, const pl_manifold *m)
 {
-    const pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
-    uint32_t i = pl_islands(&world->sleep)[island].first_contact;
-    for (; i != PL_NONE; i = all[i].next) {
-        const pl_pair *pair = &all[i].pair;
-        if (!(pair->flags & PL_PAIR_TOUCHING) || !(all[i].whole || all[i].recalled) ||
-            !pl_sleeping_contact_is_intact(world, &all[i]) ||
-            (row != PL_NONE && world->pieces.body[pair->a] != row &&
-             world->pieces.body[pair->b] != row)) {
-            continue;
-        }
-        if (contacts != NULL && count < capacity) {
-            contacts[count] =
-                view_contact(world, pair, all[i].whole ? &all[i].manifold : &all[i].last);
-        }
-        ++count;
+    if (l->contacts != NULL && l->count < l->capacity) {
+        l->contacts[l->count] = view_contact(l->world, pair, m);
     }
-    return count;
+    ++l->count;
 }
 
-// `row` PL_NONE: contacts of all bodies.
-static int list_contacts(const plumb_world *world, uint32_t row, plumb_contact *contacts,
-                         int capacity)
+static bool is_of_row(const listing *l, const pl_pair *pair)
 {
-    int count = 0;
+    const uint32_t *body = l->world->pieces.body;
+    return l->row == PL_NONE || body[pair->a] == l->row || body[pair->b] == l->row;
+}
+
+static void list_sleeping(listing *l, const pl_sleeping_contact *c)
+{
+    if ((c->pair.flags & PL_PAIR_TOUCHING) && (c->whole || c->recalled) &&
+        pl_sleeping_contact_is_intact(l->world, c) && is_of_row(l, &c->pair)) {
+        list_one(l, &c->pair, c->whole ? &c->manifold : &c->last);
+    }
+}
+
+// The contacts of an island that sleeps: nothing has moved since.
+static void list_island(listing *l, uint32_t island)
+{
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&l->world->sleep);
+    const pl_island *at = &pl_islands(&l->world->sleep)[island];
+    for (uint32_t i = at->body_count > 0 ? at->first_contact : PL_NONE; i != PL_NONE;
+         i = all[i].next) {
+        list_sleeping(l, &all[i]);
+    }
+}
+
+// Of a body that is not asleep, with those that are. What is due to wake may have been asleep with it: until then it is not listed
+// by the piece.
+static void list_sleepers_at(listing *l)
+{
+    const pl_pieces *pieces = &l->world->pieces;
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&l->world->sleep);
+    const pl_island *islands = pl_islands(&l->world->sleep);
+    for (uint32_t p = l->world->bodies.first_piece[l->row]; p != PL_NONE;
+         p = pieces->next_in_body[p]) {
+        for (uint32_t i = pieces->first_sleeping[p]; i != PL_NONE; i = all[i].fixed_next) {
+            if (islands[all[i].island].body_count > 0 && !islands[all[i].island].due) {
+                list_sleeping(l, &all[i]);
+            }
+        }
+    }
+    for (uint32_t i = l->world->sleep.first_due; i != PL_NONE; i = islands[i].next_due) {
+        list_island(l, i);
+    }
+}
+
+static void list_awake(listing *l)
+{
+    const plumb_world *world = l->world;
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const uint32_t made = world->narrow.manifold_count + world->narrow.borne_count;
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         const pl_pair *pair = &pairs[i];
         // Pairs of a step without collision still name manifolds that are gone.
-        if (!(pair->flags & PL_PAIR_TOUCHING) || pair->manifold >= made ||
-            !is_intact(world, pair)) {
-            continue;
-        }
-        if (row != PL_NONE && world->pieces.body[pair->a] != row &&
-            world->pieces.body[pair->b] != row) {
-            continue;
-        }
-        if (contacts != NULL && count < capacity) {
-            contacts[count] =
-                view_contact(world, pair, &pl_manifolds(&world->narrow)[pair->manifold]);
-        }
-        ++count;
-    }
-    for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
-        if (pl_islands(&world->sleep)[i].body_count > 0) {
-            count = list_sleeping(world, i, row, contacts, capacity, count);
+        if (is_of_row(l, pair) && (pair->flags & PL_PAIR_TOUCHING) && pair->manifold < made &&
+            is_intact(world, pair)) {
+            list_one(l, pair, &pl_manifolds(&world->narrow)[pair->manifold]);
         }
     }
-    return count;
 }
 
 int plumb_world_contacts(const plumb_world *world, plumb_contact *contacts, int capacity)
 {
-    return world == NULL ? 0 : list_contacts(world, PL_NONE, contacts, capacity);
+    if (world == NULL) {
+        return 0;
+    }
+    listing l = { world, PL_NONE, contacts, capacity, 0 };
+    list_awake(&l);
+    for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
+        list_island(&l, i);
+    }
+    return l.count;
 }
 
 int plumb_body_contacts(const plumb_world *world, plumb_body body, plumb_contact *contacts,
                         int capacity)
 {
     uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? 0 : list_contacts(world, row, contacts, capacity);
+    if (row == PL_NONE) {
+        return 0;
+    }
+    listing l = { world, row, contacts, capacity, 0 };
+    const uint32_t island = world->bodies.island[row];
+    if (island != PL_NONE) {
+        list_island(&l, island);
+    } else {
+        list_awake(&l);
+        list_sleepers_at(&l);
+    }
+    return l.count;
 }

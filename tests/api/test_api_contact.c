@@ -1,5 +1,6 @@
 // test_api_contact.c - contacts edited before the solver, hits, events once a pair of shapes.
 #include "contact_fixture.h"
+#include "harness/random.h"
 
 //---- edits ---------------------------------------------------------------------------------------
 
@@ -351,6 +352,88 @@ static void what_is_locked_in_a_step(void **state)
     steps(W, 1);
 }
 
+//---- lists ---------------------------------------------------------------------------------------
+
+enum { LISTED = 400 };
+
+static bool is_listed(const plumb_contact *c, const plumb_contact *list, int count)
+{
+    bool any = false;
+    for (int i = 0; i < count && !any; ++i) {
+        any = plumb_same(c->shape_a, list[i].shape_a) && plumb_same(c->shape_b, list[i].shape_b);
+    }
+    return any;
+}
+
+// What the list of all has of a body is what its own list has.
+static void assert_lists_agree(plumb_world *w)
+{
+    static plumb_contact all[LISTED], own[LISTED];
+    const int count = plumb_world_contacts(w, all, LISTED);
+    assert_true(count <= LISTED);
+    const plumb_body_span span = plumb_world_bodies(w);
+    for (int b = 0; b < span.count; ++b) {
+        const int of_body = plumb_body_contacts(w, span.body[b], own, LISTED);
+        int expected = 0;
+        for (int i = 0; i < count; ++i) {
+            if (plumb_same(all[i].body_a, span.body[b]) ||
+                plumb_same(all[i].body_b, span.body[b])) {
+                ++expected;
+                assert_true(is_listed(&all[i], own, of_body));
+            }
+        }
+        assert_int_equal(of_body, expected);
+    }
+}
+
+static void change_something(plumb_world *w, uint32_t *seed)
+{
+    const plumb_body_span span = plumb_world_bodies(w);
+    const plumb_body body = span.body[sim_random(seed) % (uint32_t)span.count];
+    switch (sim_random(seed) % 6) {
+    case 0:
+        plumb_body_sleep(w, body);
+        break;
+    case 1:
+        plumb_body_wake(w, body);
+        break;
+    case 2:
+        plumb_body_set_type(w, body, (plumb_body_type)(sim_random(seed) % 3));
+        break;
+    case 3:
+        plumb_body_teleport(w, body, plumb_v2(0, 9), 0);
+        break;
+    case 4:
+        plumb_body_set_enabled(w, body, sim_random(seed) % 2 == 0);
+        break;
+    default:
+        plumb_body_destroy(w, body);
+        break;
+    }
+}
+
+static void lists_of_bodies_are_those_of_the_world(void **state)
+{
+    (void)state;
+    for (uint32_t n = 0; n < 20; ++n) {
+        uint32_t seed = 101 * n + 1;
+        plumb_world *w = flat_world((plumb_world_desc){ .sleep_time = R(0.2) });
+        add_floor(w, NO_MATERIAL);
+        for (int i = 0; i < 30; ++i) {
+            add_disc(w, sim_uniform(&seed, -4, 4), 0.5 + i % 5, (plumb_shape_desc){ 0 }, NULL);
+        }
+        for (int step = 0; step < 120; ++step) {
+            steps(w, 1);
+            assert_lists_agree(w);
+            if (step % 10 == 9) {
+                change_something(w, &seed);
+                assert_lists_agree(w);
+            }
+        }
+        plumb_world_destroy(w);
+    }
+}
+
 static void nothing_is_known_of_no_world(void **state)
 {
     (void)state;
@@ -382,6 +465,7 @@ int main(void)
         cmocka_unit_test(a_chain_is_touched_once),
         cmocka_unit_test(a_joint_of_a_chain_is_hit_once),
         API_TEST(what_is_locked_in_a_step),
+        cmocka_unit_test(lists_of_bodies_are_those_of_the_world),
         cmocka_unit_test(nothing_is_known_of_no_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
