@@ -93,7 +93,8 @@ PLUMB_API plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb
 /// Gives the shape another form: kind, points and measures of `desc`. Its handle, body, material, density,
 /// filter, one-way property, being a sensor and user data stay, whatever `desc` says of them, and so does its place among the
 /// shapes of the body, whose mass is revised.
-/// What it touched is found anew: touches that go on end and begin. Errors: as of plumb_shape_create.
+/// What it touched is found anew: touches that go on end and begin. A shape that has that form already stays as it is, and so do
+/// its touches. Errors: as of plumb_shape_create.
 PLUMB_API plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
                                                 const plumb_shape_desc *desc);
 PLUMB_API plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data);

@@ -162,6 +162,31 @@ plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plum
     return r;
 }
 
+// Whether what was made is, piece by piece, what the shape is made of.
+static bool has_form(const plumb_world *world, uint32_t first, plumb_shape_kind kind,
+                     const pl_made *made)
+{
+    const pl_pieces *pieces = &world->pieces;
+    const pl_made_piece *source = world->made.data;
+    uint32_t i = 0, p = first;
+    for (; p != PL_NONE && i < made->count; p = pieces->next_in_shape[p], ++i) {
+        const plumb_convex *wanted = &source[i].convex;
+        plumb_convex now;
+        pl_piece_convex(world, p, &now);
+        if (pieces->shape_kind[p] != (uint8_t)kind || pieces->kind[p] != source[i].kind ||
+            pieces->cuts[p] != source[i].cuts || now.count != wanted->count ||
+            now.radius != wanted->radius) {
+            return false;
+        }
+        for (int k = 0; k < now.count; ++k) {
+            if (now.points[k].x != wanted->points[k].x || now.points[k].y != wanted->points[k].y) {
+                return false;
+            }
+        }
+    }
+    return p == PL_NONE && i == made->count;
+}
+
 plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
                                       const plumb_shape_desc *desc)
 {
@@ -181,6 +206,9 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
     wanted.user_data = pieces->user_data[first];
     pl_made made;
     PL_TRY(pl_shape_make(world, __func__, &wanted, &made));
+    if (has_form(world, first, wanted.kind, &made)) {
+        return PLUMB_OK;
+    }
     // The new pieces take the handle over while the old ones are there: only then can nothing fail.
     PL_TRY(pl_shape_insert(world, __func__, row, &wanted, &made, &shape));
     pl_pieces_move_behind(world, pl_shape_piece(world, shape), first);

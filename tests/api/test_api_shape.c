@@ -402,6 +402,29 @@ static void check_order(const fixture *f, plumb_body body, const plumb_shape *ma
     assert_memory_equal(told, made, (size_t)count * sizeof *made);
 }
 
+// A shape of any kind that is given the form that it has stays as it is: its body sleeps on.
+static void the_same_form_changes_nothing(void **state)
+{
+    fixture *f = *state;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
+        for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
+            plumb_shape_desc desc = kinds[i].desc, other = kinds[k].desc;
+            desc.density = other.density = 1; // else lines have no mass to fall asleep with
+            plumb_body body = plumb_body_create(
+                f->world,
+                &(plumb_body_desc){
+                    .position = { R(1e4), R(i) }, .mass = 1, .inertia = 1, .asleep = true });
+            plumb_shape shape = plumb_shape_create(f->world, body, &desc);
+            assert_false(plumb_is_null(shape));
+            assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
+            assert_false(plumb_body_is_awake(f->world, body));
+            assert_int_equal(plumb_shape_set_geometry(f->world, shape, &other), PLUMB_OK);
+            assert_int_equal(plumb_body_is_awake(f->world, body), i != k);
+            assert_int_equal(plumb_body_destroy(f->world, body), PLUMB_OK);
+        }
+    }
+}
+
 // Shapes are told in the order in which they were made, whatever form they get, and what is cut off them.
 static void other_forms_keep_the_order(void **state)
 {
@@ -445,6 +468,7 @@ int main(void)
         API_TEST(shapes_of_the_world_are_listed),
         API_TEST(bad_handles_are_answered_with_nothing),
         API_TEST(points_are_copied),
+        API_TEST(the_same_form_changes_nothing),
         API_TEST(other_forms_keep_the_order),
         API_TEST(materials_are_read_and_changed),
         API_TEST(a_destroyed_material_leaves_the_others_as_they_were),

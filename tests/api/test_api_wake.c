@@ -57,6 +57,15 @@ CHANGE(same_tuning, plumb_world_set_contact_tuning(p->w, 0, 0, 0))
 CHANGE(remove_shape, plumb_shape_destroy(p->w, p->low_box))
 CHANGE(shape_material, plumb_shape_set_material(p->w, p->low_box, (plumb_material)PLUMB_NULL_INIT))
 CHANGE(same_material, plumb_shape_set_material(p->w, p->low_box, p->wood))
+CHANGE(form,
+       plumb_shape_set_geometry(p->w, p->low_box,
+                                &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.5) }))
+CHANGE(same_form, plumb_shape_set_geometry(p->w, p->low_box,
+                                           &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                                .half = { R(0.5), R(0.5) } }))
+CHANGE(same_floor,
+       plumb_shape_set_geometry(p->w, p->floor,
+                                &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 50, 1 } }))
 CHANGE(filter, plumb_shape_set_filter(p->w, p->low_box, (plumb_filter){ .category = 2 }))
 CHANGE(same_filter, plumb_shape_set_filter(p->w, p->low_box, (plumb_filter){ .category = 1 }))
 CHANGE(same_one_way, plumb_shape_set_one_way(p->w, p->low_box, (plumb_one_way){ .angle = 0 }))
@@ -238,6 +247,9 @@ static const waker wakers[] = {
     ROW(remove_shape, STACK),
     ROW(shape_material, STACK),
     ROW(same_material, 0),
+    ROW(form, STACK),
+    ROW(same_form, 0),
+    ROW(same_floor, 0),
     ROW(filter, STACK),
     ROW(sensor, STACK),
     ROW(not_sensor, 0),
