@@ -76,6 +76,37 @@ static bool is_deep_in_free_body(const plumb_world *world, const pl_manifold *m,
            plumb_min(m->point[0].separation, m->point[1].separation) < -DEEP;
 }
 
+// Its deepest point is at a corner where the ground goes on flat: the neighbour has it. The other, along the edge beside the
+// corner, may meet within the step as the bodies turn, and stays alone, unless it is at such a corner, too. False: it is not so.
+// Between two grounds either would keep what the other leaves to its neighbour.
+static bool drop_inner_corner(const plumb_world *world, const pl_view *v, pl_manifold *m)
+{
+    const pl_pieces *pieces = &world->pieces;
+    const int k = v->feature, before = k > 0 ? k - 1 : v->side.count - 1;
+    if (m->count != 2 || v->is_edge || v->side.count < 3 ||
+        pl_piece_has_internal_edges(pieces, v->other)) {
+        return false;
+    }
+    const pl_vertex *corners = v->side.corners, *on = &corners[k], *back = &corners[before];
+    const bool goes_on = (double)on->nx * v->nx + (double)on->ny * v->ny >
+                         (double)back->nx * v->nx + (double)back->ny * v->ny;
+    const int edge = goes_on ? k : before;
+    const int end = goes_on ? (k + 1 < v->side.count ? k + 1 : 0) : before;
+    const int outer = m->point[1].separation > m->point[0].separation ? 1 : 0;
+    const uint32_t narrowed = pieces->internal_corners[v->own];
+    if ((narrowed >> k & 1) == 0 ||
+        ((narrowed >> end & 1) != 0 && pl_view_is_at_corner(v, &m->point[outer], end)) ||
+        (pieces->internal_edges[v->own] & (PL_EDGE_COVERED(edge) | PL_EDGE_PARTLY(edge))) != 0) {
+        return false;
+    }
+    m->point[0] = m->point[outer];
+    m->feature[0] = m->feature[outer];
+    m->point[1] = (pl_manifold_point){ .separation = PL_APART };
+    m->feature[1] = PL_NONE;
+    m->count = 1;
+    return true;
+}
+
 // Either piece may be ground; the ground of one must allow what the other's makes of the contact.
 static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt,
                      prospect *o)
@@ -90,12 +121,21 @@ static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold 
     if (allowed[0] && allowed[1]) {
         return RIGHT;
     }
+    const pl_manifold seen = *m;
     for (int i = 0; i < 2; ++i) {
         if (allowed[i] || !pl_view_rebuild(view_of(o, world, pair, m, i, dt), m)) {
             continue;
         }
         o->open[0] = o->open[1] = false;
         if (pl_view_is_allowed(view_of(o, world, pair, m, 1 - i, dt))) {
+            return SET_RIGHT;
+        }
+    }
+    *m = seen;
+    o->open[0] = o->open[1] = false;
+    for (int i = 0; i < 2; ++i) {
+        if (!allowed[i] && allowed[1 - i] &&
+            drop_inner_corner(world, view_of(o, world, pair, m, i, dt), m)) {
             return SET_RIGHT;
         }
     }

@@ -47,6 +47,8 @@ void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, con
     double wy = ((double)v->other_pose->vy - (double)v->own_pose->vy) * dt;
     v->vx = c * wx + s * wy;
     v->vy = c * wy - s * wx;
+    v->turn_a = (double)world->bodies.w[m->body_a] * dt;
+    v->turn_b = (double)world->bodies.w[m->body_b] * dt;
 }
 
 // [m] from the own origin to the other's.
@@ -147,10 +149,9 @@ static bool faces_open_part(pl_view *v, int k)
 }
 
 // True when the deepest point lies at a corner of the own piece; (nx, ny) is the normal in its frame.
-static bool bears_at(const plumb_world *world, const pl_manifold *m, uint32_t own, bool own_is_a,
-                     const pl_pose *pose, double nx, double ny, const pl_vertex *corner)
+static bool is_at(const plumb_world *world, const pl_manifold_point *p, uint32_t own, bool own_is_a,
+                  const pl_pose *pose, double nx, double ny, const pl_vertex *corner)
 {
-    const pl_manifold_point *p = &m->point[m->point[1].separation < m->point[0].separation];
     double c = (double)pose->c, s = (double)pose->s;
     double x = (double)(own_is_a ? p->ax : p->bx) + (double)pose->dx;
     double y = (double)(own_is_a ? p->ay : p->by) + (double)pose->dy;
@@ -158,6 +159,11 @@ static bool bears_at(const plumb_world *world, const pl_manifold *m, uint32_t ow
     double dx = c * x + s * y - radius * nx - (double)corner->x;
     double dy = c * y - s * x - radius * ny - (double)corner->y;
     return dx * dx + dy * dy <= PL_EDGE_SLOP * PL_EDGE_SLOP;
+}
+
+static const pl_manifold_point *deepest_of(const pl_manifold *m)
+{
+    return &m->point[m->point[1].separation < m->point[0].separation];
 }
 
 bool pl_view_end_bears(const plumb_world *world, const pl_manifold *m, uint32_t own, bool own_is_a,
@@ -171,16 +177,20 @@ bool pl_view_end_bears(const plumb_world *world, const pl_manifold *m, uint32_t 
     const double nx = c * wx + s * wy, ny = c * wy - s * wx;
     const double ex = (double)corners[next].x - (double)corners[k].x;
     const double ey = (double)corners[next].y - (double)corners[k].y;
-    return bears_at(world, m, own, own_is_a, pose, nx, ny,
-                    &corners[ex * nx + ey * ny > 0 ? next : k]);
+    return is_at(world, deepest_of(m), own, own_is_a, pose, nx, ny,
+                 &corners[ex * nx + ey * ny > 0 ? next : k]);
+}
+
+bool pl_view_is_at_corner(const pl_view *v, const pl_manifold_point *p, int k)
+{
+    return is_at(v->world, p, v->own, v->own_is_a, v->own_pose, v->nx, v->ny, &v->side.corners[k]);
 }
 
 // True when the deepest point is at corner k. Otherwise it lies on an edge, with the normal of the other
 // piece's face, which leans as that piece does.
 static bool lies_at(const pl_view *v, int k)
 {
-    return bears_at(v->world, v->m, v->own, v->own_is_a, v->own_pose, v->nx, v->ny,
-                    &v->side.corners[k]);
+    return pl_view_is_at_corner(v, deepest_of(v->m), k);
 }
 
 // [rad] between two grounds, what bears at a flat corner bears on the face beside it that leans no more than this against the normal:
@@ -380,25 +390,36 @@ static void write_point(const pl_view *v, const pl_face *f, pl_face_point p, pl_
                                 .separation = (near_real)(p.u - v->radii) };
 }
 
+// [m] by which the turning of both bodies closes a point within the step, and a little more.
+static double turned(const pl_view *v, const pl_manifold *m, const pl_manifold_point *p)
+{
+    const double nx = (double)m->nx, ny = (double)m->ny;
+    const double a = (double)p->ax * ny - (double)p->ay * nx;
+    const double b = (double)p->bx * ny - (double)p->by * nx;
+    return a * v->turn_a - b * v->turn_b + (double)PL_BESIDE_SPIN;
+}
+
 uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_face_point *points, int count,
                        uint32_t feature, pl_manifold *m)
 {
-    double limit = limit_of(v, f);
+    const double limit = limit_of(v, f), linear = -(v->vx * f->nx + v->vy * f->ny);
     uint32_t kept = 0;
+    double sign = v->own_is_a ? 1 : -1;
+    double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
+    m->nx = (near_real)(sign * (c * f->nx - s * f->ny));
+    m->ny = (near_real)(sign * (s * f->nx + c * f->ny));
     for (int i = 0; i < count; ++i) {
-        if (points[i].u - v->radii < limit) {
-            write_point(v, f, points[i], &m->point[kept]);
-            m->feature[kept++] = feature + (uint32_t)i;
+        pl_manifold_point p;
+        write_point(v, f, points[i], &p);
+        if (points[i].u - v->radii < pl_greater(limit, linear + turned(v, m, &p))) {
+            m->feature[kept] = feature + (uint32_t)i;
+            m->point[kept++] = p;
         }
     }
     for (uint32_t i = kept; i < 2; ++i) {
         m->point[i] = (pl_manifold_point){ .separation = PL_APART };
         m->feature[i] = PL_NONE;
     }
-    double sign = v->own_is_a ? 1 : -1;
-    double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
-    m->nx = (near_real)(sign * (c * f->nx - s * f->ny));
-    m->ny = (near_real)(sign * (s * f->nx + c * f->ny));
     m->count = (uint16_t)kept;
     m->met = (uint16_t)((m->met & ~PL_MET_TURNS) | (v->own_is_a ? PL_MET_TURNS_A : PL_MET_TURNS_B));
     return kept;

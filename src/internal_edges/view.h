@@ -19,9 +19,10 @@ typedef struct pl_view {
     double nx, ny; // outward normal of the ground
     int feature;   // what of the ground lies farthest that way: edge or corner
     bool is_edge;
-    double vx, vy; // [m] way of the other in this step
-    double radii;  // [m]
-    int count;     // corners of the other
+    double vx, vy;         // [m] way of the other in this step
+    double turn_a, turn_b; // [rad] of both bodies in it
+    double radii;          // [m]
+    int count;             // corners of the other
     double x[PLUMB_POLYGON_MAX_VERTICES], y[PLUMB_POLYGON_MAX_VERTICES];
 } pl_view;
 
@@ -61,6 +62,9 @@ bool pl_view_is_allowed(pl_view *v);
 // True when the deepest point of a manifold is at that end of edge k which lies farther along the normal.
 bool pl_view_end_bears(const plumb_world *world, const pl_manifold *m, uint32_t own, bool own_is_a,
                        int k);
+
+// True when a point of the manifold is at corner k of the own piece.
+bool pl_view_is_at_corner(const pl_view *v, const pl_manifold_point *p, int k);
 
 // The strip before edge k, open ends and way of the other piece included.
 pl_strip pl_view_strip(const pl_view *v, int k);

@@ -343,6 +343,18 @@ static void remember_face(const lanes *l, const pl_narrow_input *in, uint32_t co
     }
 }
 
+// [m/s] at most, by which the turning of A and B brings points of theirs together.
+WIDE_INLINE vf corner_speeds(const lanes *l, const pl_narrow_input *in)
+{
+    near_real speeds[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        const uint32_t a = in->pairs[l->pair[i]].body_a, b = in->pairs[l->pair[i]].body_b;
+        speeds[i] =
+            (near_real)(plumb_abs(in->w[a]) * in->extent[a] + plumb_abs(in->w[b]) * in->extent[b]);
+    }
+    return load(speeds);
+}
+
 // Lanes whose remembered face still parts them.
 static inline vm parted(const lanes *l, const pl_narrow_input *in)
 {
@@ -393,8 +405,9 @@ static inline vm parted(const lanes *l, const pl_narrow_input *in)
         }
         least = vmin(least, v[0] * mx + v[1] * my);
     }
-    vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);
-    return from + least - l->ar - l->br > splat(PL_SPECULATIVE) + speed;
+    const vf dt = splat(in->dt), way = vsqrt(l->vx * l->vx + l->vy * l->vy) * dt;
+    const vf spin = corner_speeds(l, in) * dt + splat(PL_BESIDE_SPIN);
+    return from + least - l->ar - l->br > vmax(splat(PL_SPECULATIVE), spin) + way;
 }
 
 // Which of the `count` <= 64 pairs from `first` are still parted by their remembered face: a bit each.

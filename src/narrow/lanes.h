@@ -182,14 +182,14 @@ static inline void part(pl_pair *pair)
     pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD | PL_PAIR_SLIDES | PL_PAIR_LOADS);
 }
 
-// What points are, and whose impulses they go on with: those that are nearer than `limit`, by feature.
-static inline uint32_t keep_points(pl_pair *pair, pl_manifold *m, near_real limit,
+// What points are, and whose impulses they go on with: those that are nearer than their `limit`, by feature.
+static inline uint32_t keep_points(pl_pair *pair, pl_manifold *m, const near_real limit[2],
                                    const uint32_t feature[2])
 {
     const pl_pair old = *pair;
     uint32_t count = 0;
     for (int k = 0; k < 2; ++k) {
-        if (!(m->point[k].separation < limit)) {
+        if (!(m->point[k].separation < limit[k])) {
             continue;
         }
         pl_manifold_point *p = &m->point[count];
@@ -225,10 +225,10 @@ static inline uint32_t keep_both(const pl_pair *pair, pl_manifold *m)
 }
 
 // What is carried over to one lane's manifold, whose rows are there.
-static inline void emit_lane(pl_pair *pair, pl_manifold *m, near_real limit,
+static inline void emit_lane(pl_pair *pair, pl_manifold *m, const near_real limit[2],
                              const uint32_t feature[2])
 {
-    const bool both = m->point[0].separation < limit && m->point[1].separation < limit;
+    const bool both = m->point[0].separation < limit[0] && m->point[1].separation < limit[1];
     const bool same = pair->feature[0] == feature[0] && pair->feature[1] == feature[1];
     m->count = (uint16_t)(both && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature));
     m->waits = m->ends = 0;
@@ -240,10 +240,10 @@ static inline void emit_lane(pl_pair *pair, pl_manifold *m, near_real limit,
 }
 
 // pl_overlaps_count() of the lanes in `here`.
-WIDE_INLINE void count_overlaps(pl_overlaps *o, const touch *t, vf limit, vm here)
+WIDE_INLINE void count_overlaps(pl_overlaps *o, const touch *t, const vf limit[2], vm here)
 {
     const vf zero = splat(0);
-    const vm near[2] = { here & (t->sep[0] < limit), here & (t->sep[1] < limit) };
+    const vm near[2] = { here & (t->sep[0] < limit[0]), here & (t->sep[1] < limit[1]) };
     o->point_count += count_set(near[0]) + count_set(near[1]);
     const vm met[2] = { here & (t->sep[0] <= zero), here & (t->sep[1] <= zero) };
     const vm touching = met[0] | met[1];
@@ -267,23 +267,21 @@ WIDE_INLINE vf closed(const touch *t, const vf arm[4], const vf way[2], const vf
 // Which contacts that lie ahead may reach their plane while the bodies fly on, and which of the others close. More
 // than do: ahead.c looks closely.
 WIDE_INLINE vm lanes_act(const lanes *l, const touch *t, const pl_narrow_input *in,
-                         const vf arms[2][4], vm ahead)
+                         const vf turn_rates[2], const vf arms[2][4], vm ahead)
 {
     if (!in->plain) {
         return ~(vm){ 0 };
     }
-    near_real wa[PL_WIDTH], wb[PL_WIDTH], falls[PL_WIDTH];
+    near_real falls[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         const pl_pair *pair = &in->pairs[l->pair[i]];
-        wa[i] = (near_real)in->w[pair->body_a];
-        wb[i] = (near_real)in->w[pair->body_b];
         falls[i] =
             (near_real)((pair->body_a < in->dynamic_count) - (pair->body_b < in->dynamic_count));
     }
     const vf horizon = splat(in->horizon), fall = load(falls);
     const vf way[2] = { splat(in->fall_x) * fall - l->vx * horizon,
                         splat(in->fall_y) * fall - l->vy * horizon };
-    const vf turned[2] = { load(wa) * horizon, load(wb) * horizon };
+    const vf turned[2] = { turn_rates[0] * horizon, turn_rates[1] * horizon };
     vm acts = { 0 };
     for (int k = 0; k < 2; ++k) {
         const vf most = closed(t, arms[k], way, turned);
@@ -333,6 +331,39 @@ static inline vm sought_lanes(const lanes *l, const pl_narrow_input *in)
     return out;
 }
 
+// [rad/s] of A and B.
+WIDE_INLINE void turn_rates_of(vf out[2], const lanes *l, const pl_narrow_input *in)
+{
+    near_real wa[PL_WIDTH], wb[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        const pl_pair *pair = &in->pairs[l->pair[i]];
+        wa[i] = (near_real)in->w[pair->body_a];
+        wb[i] = (near_real)in->w[pair->body_b];
+    }
+    out[0] = load(wa), out[1] = load(wb);
+}
+
+// [m] the separations below which points are contacts. Points that will meet within the step are contacts already: they stop
+// at the surface instead of inside it, and an elastic impact can be put where it happens. What turns brings its corners
+// down with it; by how little makes no difference (PL_BESIDE_SPIN).
+WIDE_INLINE void limits_of(vf limit[2], const lanes *l, const touch *t, const pl_narrow_input *in,
+                           const vf turn_rates[2], vf restitution)
+{
+    const vf least = splat(PL_SPECULATIVE), dt = splat(in->dt);
+    const vf linear = -(t->nx * l->vx + t->ny * l->vy) * dt;
+    // It may come back from another impact.
+    const vf back = sel(restitution > splat(in->elastic_above),
+                        vsqrt(l->vx * l->vx + l->vy * l->vy) * dt, linear);
+    for (int k = 0; k < 2; ++k) {
+        const vf ax = t->px[k] + l->oax, ay = t->py[k] + l->oay;
+        const vf bx = t->px[k] - l->dx + l->obx, by = t->py[k] - l->dy + l->oby;
+        const vf spin = ((ax * t->ny - ay * t->nx) * turn_rates[0] -
+                         (bx * t->ny - by * t->nx) * turn_rates[1]) *
+                        dt;
+        limit[k] = vmax(vmax(least, least + back), linear + spin + splat(PL_BESIDE_SPIN));
+    }
+}
+
 // Appends the manifolds of `count` lanes, straight to where they stay.
 WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in, uint32_t count,
                           pl_narrow *out)
@@ -347,29 +378,27 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     vf zero = splat(0);
     vf friction = vsqrt(load(friction_a) * load(friction_b));
     vf restitution = vmax(load(bounce_a), load(bounce_b));
-    // Pairs that will meet within the step are contacts already: they stop at the surface instead
-    // of inside it, and an elastic impact can be put where it happens.
-    vf limit = splat(PL_SPECULATIVE);
-    vf closing = -(t->nx * l->vx + t->ny * l->vy) * splat(in->dt);
-    vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);
-    closing = sel(restitution > splat(in->elastic_above), speed,
-                  closing); // it may come back from another impact
-    limit = vmax(limit, limit + closing);
+    vf turn_rates[2], limit[2];
+    turn_rates_of(turn_rates, l, in);
+    limits_of(limit, l, t, in, turn_rates, restitution);
     const vm sought = in->seeks ? sought_lanes(l, in) : (vm){ 0 };
-    limit = sel(sought, splat(PL_APART), limit);
+    limit[0] = sel(sought, splat(PL_APART), limit[0]);
+    limit[1] = sel(sought, splat(PL_APART), limit[1]);
 
-    if (!any((t->sep[0] < limit) | (t->sep[1] < limit))) {
+    if (!any((t->sep[0] < limit[0]) | (t->sep[1] < limit[1]))) {
         for (uint32_t i = 0; i < count; ++i) {
             part(&in->pairs[l->pair[i]]);
         }
         return;
     }
-    near_real told[PL_WIDTH]; // the lanes that have a manifold, and its place
+    near_real told[2]
+                  [PL_WIDTH]; // limits of the points; the lanes that have a manifold, and its place
     pl_lane keeps[PL_WIDTH];
     uint32_t end = out->manifold_count;
-    const vm here = ((t->sep[0] < limit) | (t->sep[1] < limit)) & lanes_below(count);
+    const vm here = ((t->sep[0] < limit[0]) | (t->sep[1] < limit[1])) & lanes_below(count);
     memcpy(keeps, &here, sizeof keeps);
-    store(told, limit);
+    store(told[0], limit[0]);
+    store(told[1], limit[1]);
     pl_manifold none; // of lanes that have none
     near_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
@@ -390,7 +419,7 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
                                                     t->sep[k], zero, zero, zero });
     }
     const vm ahead = lanes_ahead(l, t, in, restitution);
-    const vm acts = lanes_act(l, t, in, (const vf(*)[4])arms, ahead);
+    const vm acts = lanes_act(l, t, in, turn_rates, (const vf(*)[4])arms, ahead);
     const vm notes = (~ahead & (pl_lane)PL_CANDIDATE_STRIKES) |
                      (acts & (pl_lane)PL_CANDIDATE_ACTS) | (sought & (pl_lane)PL_CANDIDATE_SOUGHT) |
                      ((restitution > zero) & (pl_lane)PL_CANDIDATE_BOUNCES);
@@ -412,7 +441,7 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
         }
         pl_manifold *m = (pl_manifold *)(void *)row[i];
         const uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
-        emit_lane(pair, m, told[i], feature);
+        emit_lane(pair, m, (const near_real[2]){ told[0][i], told[1][i] }, feature);
         m->pair = l->pair[i];
         m->met = (uint16_t)t->turns[i];
         fresh[fresh_count] = l->pair[i];

@@ -193,6 +193,7 @@ bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                                  .plain = flies_plainly(world),
                                  .dynamic_count = world->dynamic_count,
                                  .w = world->bodies.w,
+                                 .extent = world->bodies.extent,
                                  .horizon = (near_real)horizon,
                                  .fall_x = (near_real)(half * (double)world->gravity.x),
                                  .fall_y = (near_real)(half * (double)world->gravity.y) };
@@ -244,6 +245,7 @@ void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
     pl_buffer_free(memory, &narrow->manifolds);
     pl_buffer_free(memory, &narrow->staged);
     pl_buffer_free(memory, &narrow->ends);
+    pl_buffer_free(memory, &narrow->chains);
     pl_buffer_free(memory, &narrow->fresh);
     pl_buffer_free(memory, &narrow->candidates);
     *narrow = (pl_narrow){ 0 };

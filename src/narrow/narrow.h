@@ -12,6 +12,8 @@ typedef struct pl_narrow_input {
     const uint32_t *vertex_first;             // by piece slot
     const uint8_t *vertex_count;              // by piece slot
     const plumb_real *friction, *restitution; // by piece slot
+    const plumb_real *w;                      // [rad/s] by body row
+    const plumb_real *extent;                 // [m] by body row, about the centre of mass
     near_real dt;                             // [s] elastic pairs look ahead this long
     near_real elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
     pl_pair *pairs;          // the whole list
@@ -22,7 +24,6 @@ typedef struct pl_narrow_input {
     // contact may do anything).
     bool plain;
     uint32_t dynamic_count;   // body rows that fall
-    const plumb_real *w;      // [rad/s] by body row
     near_real horizon;        // [s]
     near_real fall_x, fall_y; // [m] by gravity until then
 } pl_narrow_input;
@@ -63,6 +64,9 @@ pl_narrow_kernel *pl_narrow_kernel_for(int width, int a, int b);
 // Takes the manifolds that are `disabled` out of the world's list; their pairs forget their impulses and
 // get a flag (0: none).
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag);
+
+// Leaves points out that two others of the same bodies imply (implied.c). False when out of memory.
+bool pl_narrow_leave_out_implied(plumb_world *world);
 
 // Keeps the room, nothing else.
 void pl_narrow_clear(pl_narrow *narrow);

@@ -67,7 +67,7 @@
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.stale)
 
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
-    LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.ends) LEFT(narrow.fresh)               \
+    LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.ends) LEFT(narrow.chains) LEFT(narrow.fresh)               \
     LEFT(narrow.fresh_count) LEFT(narrow.candidates) LEFT(narrow.candidate_count) LEFT(narrow.ends_stale) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
     LEFT(narrow.any_adhesion) LEFT(narrow.any_kinetic) LEFT(narrow.any_friction)                                            \
     LEFT(narrow.any_elastic) LEFT(narrow.any_low) LEFT(narrow.any_surface) LEFT(narrow.overlaps)

@@ -215,6 +215,7 @@ typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
     pl_buffer staged;    // pl_manifold, with several threads: before they are put together
     pl_buffer ends;      // pl_ends a manifold, as the kernels left them
+    pl_buffer chains;    // uint32_t: manifolds by their bodies (narrow/implied.c)
     pl_buffer fresh;     // uint32_t: pairs with a manifold that did not touch in the last step
     pl_buffer
         candidates; // uint32_t: manifolds all of whose points are apart by PL_AHEAD or more, and strikes

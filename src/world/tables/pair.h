@@ -62,6 +62,9 @@ typedef struct pl_pair {
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
 #define PL_SPECULATIVE ((near_real)0.02)
 
+// [m] the same beside what a spin closes by in the step: what turns slowly has the points of what does not turn (narrow/DECISIONS.md).
+#define PL_BESIDE_SPIN ((near_real)0.005)
+
 // Something for each two kinds of pieces, the lower kind first.
 typedef uint32_t pl_by_kinds[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
 
