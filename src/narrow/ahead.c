@@ -113,6 +113,7 @@ static void make_manifolds(const pl_looking *l, uint32_t count)
     then.poses = (const real *)(const void *)poses;
     then.pairs = copies;
     then.wrapped = then.plain = false;
+    then.w = NULL; // bodies are poses, which stand still
     const uint8_t *kind = l->world->pieces.kind;
     for (uint32_t first = 0, end = 0; first < count; first = end) {
         const uint8_t a = kind[copies[first].a], b = kind[copies[first].b];

@@ -346,6 +346,9 @@ static void remember_face(const lanes *l, const pl_narrow_input *in, uint32_t co
 // [m/s] at most, by which the turning of A and B brings points of theirs together.
 WIDE_INLINE vf corner_speeds(const lanes *l, const pl_narrow_input *in)
 {
+    if (in->w == NULL) {
+        return splat(0);
+    }
     near_real speeds[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         const uint32_t a = in->pairs[l->pair[i]].body_a, b = in->pairs[l->pair[i]].body_b;

@@ -107,6 +107,12 @@ static void leave_out(plumb_world *world, pl_manifold *m, uint32_t k)
     m->count = 1;
 }
 
+// A point by which the pair touches, whatever the other does.
+static bool tells_touch(const pl_manifold *m, uint32_t k)
+{
+    return m->point[k].separation <= PL_TOUCH_HOLD;
+}
+
 static void look_at(const search *s, pl_manifold *m)
 {
     if (m->count < 2 || !is_plain(s, m)) {
@@ -114,7 +120,7 @@ static void look_at(const search *s, pl_manifold *m)
     }
     const outer o = outer_of(s, m);
     const bool first = is_implied(s, m, 0, &o), second = is_implied(s, m, 1, &o);
-    if (first != second) {
+    if (first != second && (tells_touch(m, first ? 1 : 0) || !tells_touch(m, first ? 0 : 1))) {
         leave_out(s->world, m, first ? 0 : 1);
     }
 }
@@ -171,18 +177,14 @@ static void count_pieces(const plumb_world *world, uint32_t *dynamic, uint32_t *
     *immovable = all - *dynamic - world->sleep.resting_count;
 }
 
-bool pl_narrow_leave_out_implied(plumb_world *world)
+void pl_narrow_leave_out_implied(plumb_world *world)
 {
-    pl_narrow *narrow = &world->narrow;
+    const pl_narrow *narrow = &world->narrow;
     const uint32_t rows = world->dynamic_count;
     uint32_t dynamic, immovable;
     count_pieces(world, &dynamic, &immovable);
     if (dynamic <= rows && immovable < 2) {
-        return true; // two bodies have one manifold at the most
-    }
-    if (!pl_buffer_reserve(&world->memory, &narrow->chains,
-                           ((size_t)narrow->manifold_count + rows) * sizeof(uint32_t))) {
-        return false;
+        return; // two bodies have one manifold at the most
     }
     uint32_t *next = narrow->chains.data, *last = next + narrow->manifold_count;
     chain(world, dynamic > rows, next, last);
@@ -196,5 +198,4 @@ bool pl_narrow_leave_out_implied(plumb_world *world)
             look_at(&s, &s.manifolds[i]);
         }
     }
-    return true;
 }

@@ -334,6 +334,10 @@ static inline vm sought_lanes(const lanes *l, const pl_narrow_input *in)
 // [rad/s] of A and B.
 WIDE_INLINE void turn_rates_of(vf out[2], const lanes *l, const pl_narrow_input *in)
 {
+    if (in->w == NULL) {
+        out[0] = out[1] = splat(0);
+        return;
+    }
     near_real wa[PL_WIDTH], wb[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         const pl_pair *pair = &in->pairs[l->pair[i]];

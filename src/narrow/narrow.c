@@ -36,6 +36,8 @@ bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *
            pl_buffer_reserve(&world->memory, &narrow->ends, count * sizeof(pl_ends)) &&
            pl_buffer_reserve(&world->memory, &narrow->fresh, count * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &narrow->candidates, count * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &narrow->chains,
+                             (count + world->dynamic_count) * sizeof(uint32_t)) &&
            (pl_tasks_workers(world->tasks) == 1 ||
             pl_buffer_reserve(&world->memory, &narrow->staged, size));
 }
@@ -237,7 +239,8 @@ void pl_narrow_clear(pl_narrow *narrow)
                            .staged = narrow->staged,
                            .ends = narrow->ends,
                            .fresh = narrow->fresh,
-                           .candidates = narrow->candidates };
+                           .candidates = narrow->candidates,
+                           .chains = narrow->chains };
 }
 
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)

@@ -12,7 +12,7 @@ typedef struct pl_narrow_input {
     const uint32_t *vertex_first;             // by piece slot
     const uint8_t *vertex_count;              // by piece slot
     const plumb_real *friction, *restitution; // by piece slot
-    const plumb_real *w;                      // [rad/s] by body row
+    const plumb_real *w;                      // [rad/s] by body row; NULL: nothing turns
     const plumb_real *extent;                 // [m] by body row, about the centre of mass
     near_real dt;                             // [s] elastic pairs look ahead this long
     near_real elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
@@ -65,8 +65,8 @@ pl_narrow_kernel *pl_narrow_kernel_for(int width, int a, int b);
 // get a flag (0: none).
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag);
 
-// Leaves points out that two others of the same bodies imply (implied.c). False when out of memory.
-bool pl_narrow_leave_out_implied(plumb_world *world);
+// Leaves points out that two others of the same bodies imply (implied.c).
+void pl_narrow_leave_out_implied(plumb_world *world);
 
 // Keeps the room, nothing else.
 void pl_narrow_clear(pl_narrow *narrow);

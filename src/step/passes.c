@@ -98,8 +98,10 @@ static bool narrow(plumb_world *world, plumb_real dt)
     const bool corrected =
         world->internal_edges.pair_count == 0 || pl_internal_edges_correct(world, dt);
     pl_ahead_settle(world);
-    return corrected && (world->internal_edges.apart || pl_narrow_leave_out_implied(world)) &&
-           pl_events_prepare(world);
+    if (corrected && !world->internal_edges.apart) {
+        pl_narrow_leave_out_implied(world);
+    }
+    return corrected && pl_events_prepare(world);
 }
 
 static bool graph(plumb_world *world, plumb_real dt)

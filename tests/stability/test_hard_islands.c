@@ -165,7 +165,7 @@ static int add_heap(plumb_world *w, double x, uint32_t seed, int count, plumb_bo
     return count;
 }
 
-#define HEAP 12
+#define HEAP 14
 
 // Bits of a heap are its own: alone, before, behind and between others, and at any width and number of threads.
 static void what_else_there_is_does_not_show(void **state)
