@@ -148,7 +148,8 @@ typedef struct plumb_contact_point {
     uint32_t feature;                ///< which corner or edge made it: stable from step to step
 } plumb_contact_point;
 
-/// A touching pair.
+/// A touching pair. Where two bodies touch by several shapes on one line, points between others of theirs may be left out: they bear
+/// nothing that those do not.
 typedef struct plumb_contact {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;

@@ -8,7 +8,7 @@
 // Only points are left out that leave another one to their manifold: pairs keep their contacts, and events their touches.
 //
 // Reads: manifolds, pieces. Writes: manifolds. Order: behind all that makes and judges them. Cost: O(manifolds), where bodies have
-// several pieces or pieces that nothing moves are several; for those of one body the square of how many they are.
+// several pieces or pieces that nothing moves are several; for each of these what the one of its bodies has that has fewer.
 #include "narrow/narrow.h"
 
 #include "world/state.h"
@@ -19,7 +19,7 @@
 #define BETWEEN     1e-3     // [m] from the outer points
 #define LEVEL       1e-4     // [m] by which a point may be nearer than these say
 
-// The manifolds of a body, those in which its row is the lower one: a list.
+// The manifolds of a body, those whose other body has more: a list.
 typedef struct search {
     plumb_world *world;
     pl_manifold *manifolds;
@@ -131,28 +131,52 @@ static bool has_parts(const plumb_world *world, uint32_t row)
     return piece != PL_NONE && world->pieces.next_in_body[piece] != PL_NONE;
 }
 
-// The lower row of two bodies that may have several manifolds; PL_NONE: they have one. `parts`: some that move freely have several pieces.
-static uint32_t row_of(const plumb_world *world, uint32_t a, uint32_t b, bool parts)
+// Whether two bodies may have several manifolds. `parts`: some that move freely have several pieces.
+static bool may_have_several(const plumb_world *world, pl_ends of, bool parts)
 {
-    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
-    const bool may = low < world->dynamic_count &&
-                     (high >= world->dynamic_count ||
-                      (parts && (has_parts(world, low) || has_parts(world, high))));
-    return may ? low : PL_NONE;
+    const uint32_t low = of.a < of.b ? of.a : of.b, high = of.a < of.b ? of.b : of.a;
+    return low < world->dynamic_count &&
+           (high >= world->dynamic_count ||
+            (parts && (has_parts(world, low) || has_parts(world, high))));
 }
 
-// Lists manifolds by their bodies.
-static void chain(const plumb_world *world, bool parts, uint32_t *next, uint32_t *last)
+static pl_ends ends_of(const pl_narrow *narrow, uint32_t i)
+{
+    const pl_manifold *m = &pl_manifolds(narrow)[i];
+    return narrow->ends_stale ? (pl_ends){ m->body_a, m->body_b }
+                              : ((const pl_ends *)narrow->ends.data)[i];
+}
+
+// The same for all manifolds of two bodies, whichever is A.
+static bool has_fewer(const uint32_t *many, uint32_t a, uint32_t b)
+{
+    return many[a] < many[b] || (many[a] == many[b] && a < b);
+}
+
+// Lists manifolds by that of their bodies which has fewer. `many`: how many each has.
+static void chain(const plumb_world *world, bool parts, uint32_t *next, uint32_t *last,
+                  uint32_t *many)
 {
     const pl_narrow *narrow = &world->narrow;
-    const pl_manifold *m = pl_manifolds(narrow);
-    const pl_ends *ends = narrow->ends_stale ? NULL : narrow->ends.data;
-    memset(last, 0xff, world->dynamic_count * sizeof *last);
+    const uint32_t rows = world->dynamic_count;
+    memset(last, 0xff, rows * sizeof *last);
+    memset(many, 0, rows * sizeof *many);
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
-        const uint32_t a = ends != NULL ? ends[i].a : m[i].body_a;
-        const uint32_t b = ends != NULL ? ends[i].b : m[i].body_b;
-        const uint32_t row = row_of(world, a, b, parts);
-        if (row != PL_NONE) {
+        const pl_ends of = ends_of(narrow, i);
+        const bool may = may_have_several(world, of, parts);
+        next[i] = may ? 0 : PL_NONE;
+        if (may && of.a < rows) {
+            ++many[of.a];
+        }
+        if (may && of.b < rows) {
+            ++many[of.b];
+        }
+    }
+    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+        if (next[i] != PL_NONE) {
+            const pl_ends of = ends_of(narrow, i);
+            const uint32_t row =
+                of.b >= rows || (of.a < rows && has_fewer(many, of.a, of.b)) ? of.a : of.b;
             next[i] = last[row];
             last[row] = i;
         }
@@ -187,7 +211,7 @@ void pl_narrow_leave_out_implied(plumb_world *world)
         return; // two bodies have one manifold at the most
     }
     uint32_t *next = narrow->chains.data, *last = next + narrow->manifold_count;
-    chain(world, dynamic > rows, next, last);
+    chain(world, dynamic > rows, next, last, last + rows);
     search s = { .world = world,
                  .manifolds = pl_manifolds(narrow),
                  .next = next,

@@ -37,7 +37,7 @@ bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *
            pl_buffer_reserve(&world->memory, &narrow->fresh, count * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &narrow->candidates, count * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &narrow->chains,
-                             (count + world->dynamic_count) * sizeof(uint32_t)) &&
+                             (count + 2 * (size_t)world->dynamic_count) * sizeof(uint32_t)) &&
            (pl_tasks_workers(world->tasks) == 1 ||
             pl_buffer_reserve(&world->memory, &narrow->staged, size));
 }
