@@ -80,7 +80,7 @@ END_OF_SCENE
 alarm "contact-without-touch " "'rod16' and 'pole16'; last call plumb_body_set_angular_velocity at step 0" 1 8 <<'END_OF_SCENE'
 scene { duration = 1, dt = 1 / 20, substeps = @, gravity = {0, 0}, continuous = false }
 body { name = "pole16", type = "static", box { 0.2, 0.2 } }
-body { name = "rod16", box { 2, 0.1 }, at = {0, 0.97}, spin = 20 / @ }
+body { name = "rod16", box { 2, 0.1 }, at = {0, 1.04}, spin = 30 / @ }
 END_OF_SCENE
 alarm "pair-explosion " "'disc1'; last call plumb_body_teleport at step 6" 0.02 1.1 <<'END_OF_SCENE'
 scene { duration = 0.11, gravity = {0, 0}, push_speed = 0.5 }
