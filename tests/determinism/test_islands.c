@@ -140,10 +140,13 @@ static void run(plumb_solver solver, int order, outcome *left, outcome *right)
         make(w, &a);
         break;
     }
+    uint32_t most = 0;
     for (int i = 0; i < (solver == PLUMB_SOLVER_EXACT ? STEPS_EXACT : STEPS); ++i) {
         assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+        const uint32_t contacts = plumb_world_stats(w).contact_count;
+        most = contacts > most ? contacts : most;
     }
-    assert_true(plumb_world_stats(w).contact_count > BODIES / 4);
+    assert_true(most > BODIES / 2);
     collect(w, &a, left);
     if (order != ALONE) {
         collect(w, &b, right);
