@@ -23,6 +23,15 @@ uint32_t pl_find_key(const void *items, uint32_t count, uint32_t stride, uint64_
 // counting. Returns the place behind the last.
 uint32_t pl_counts_to_places(uint32_t *counts, uint32_t kinds, uint32_t first);
 
+// The same of a kind that has a range for its own: `end` is how many there are; the range becomes empty, to be filled, and *at the
+// place behind it.
+static inline void pl_range_open(uint32_t *first, uint32_t *end, uint32_t *at)
+{
+    *first = *at;
+    *at += *end;
+    *end = *first;
+}
+
 // Two slots as one key.
 static inline uint64_t pl_key(uint32_t high, uint32_t low)
 {

@@ -232,13 +232,11 @@ static bool fill_bins(sweep *s, bins *b)
     memset(b->first, 0, (b->count + 1) * sizeof *b->first);
     for (uint32_t i = 0; i < n; ++i) {
         for (uint32_t k = bin_of(b, all[i].low); k <= bin_of(b, all[i].high); ++k) {
-            ++b->first[k + 1];
+            ++b->first[k];
         }
     }
-    for (uint32_t k = 0; k < b->count; ++k) {
-        b->first[k + 1] += b->first[k];
-        b->at[k] = b->first[k];
-    }
+    b->first[b->count] = pl_counts_to_places(b->first, b->count, 0);
+    memcpy(b->at, b->first, b->count * sizeof *b->at);
     for (uint32_t i = 0; i < n; ++i) {
         const blocker *at = &all[order[i].value];
         for (uint32_t k = bin_of(b, at->low); k <= bin_of(b, at->high); ++k) {

@@ -206,9 +206,7 @@ static void sort_items(search *s)
     }
     uint32_t at = 0;
     for (uint32_t k = 0; k < e->island_count; ++k) {
-        islands[k].first_item = at;
-        at += islands[k].end_item;
-        islands[k].end_item = islands[k].first_item;
+        pl_range_open(&islands[k].first_item, &islands[k].end_item, &at);
     }
     for (uint32_t i = 0; i < e->item_count; ++i) {
         pl_exact_island *island = island_of(s, &items[i]);

@@ -20,11 +20,6 @@
 #define SLIDING   0.02 // of the secant stiffness of what slides
 #define LIES      0.05 // of its radius: nearer, a node has its contact wherever it is on its way to
 
-static pl_soft_point *points_of(const pl_soft_step *s)
-{
-    return s->points.data;
-}
-
 //---- contacts of a substep -----------------------------------------------------------------------
 
 double pl_soft_distance(const pl_soft_obstacle *o, double x, double y, double n[2])
@@ -87,8 +82,8 @@ static bool advance(const pl_soft_obstacle *o, double x, double y, double dx, do
 static bool touch(const pl_soft_step *s, const pl_soft_near *near, double h, pl_soft_contact *out)
 {
     const pl_soft_obstacle *o = (const pl_soft_obstacle *)s->obstacles.data + near->obstacle;
-    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + o->body;
-    const pl_soft_point *p = points_of(s) + near->point;
+    const pl_soft_body *b = pl_soft_bodies(s) + o->body;
+    const pl_soft_point *p = pl_soft_points(s) + near->point;
     const double rx = p->x - b->x, ry = p->y - b->y;
     const double later = b->block == PL_NONE ? 0 : h;
     const double vx = p->vx + p->cx - (b->vx + later * b->ax - b->w * ry);
@@ -145,15 +140,15 @@ typedef struct way {
 
 static way way_along(const pl_soft_step *s, const pl_soft_contact *c, double x, double y)
 {
-    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
+    const pl_soft_body *b = pl_soft_bodies(s) + c->body;
     return (way){ { x, y },
                   { -x * b->locked_x, -y * b->locked_y, -(c->rx * y - c->ry * x) * b->locked_w } };
 }
 
 static double rate_of(const pl_soft_step *s, const pl_soft_contact *c, const way *w, bool added)
 {
-    const pl_soft_point *p = points_of(s) + c->point;
-    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
+    const pl_soft_point *p = pl_soft_points(s) + c->point;
+    const pl_soft_body *b = pl_soft_bodies(s) + c->body;
     if (added) {
         const double of_node = p->cx * w->node[0] + p->cy * w->node[1];
         const double *u = s->matrix.u + (b->block == PL_NONE ? 0 : 3 * (size_t)b->block);
@@ -170,8 +165,8 @@ static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, d
                 double stiff, pl_soft_fill fill)
 {
     const pl_soft_matrix *m = &s->matrix;
-    const pl_soft_point *p = points_of(s) + c->point;
-    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
+    const pl_soft_point *p = pl_soft_points(s) + c->point;
+    const pl_soft_body *b = pl_soft_bodies(s) + c->body;
     const bool moves = b->block != PL_NONE;
     double *right = m->right + 3 * (size_t)p->block;
     for (int r = 0; r < 2; ++r) {

@@ -13,11 +13,6 @@
 
 #include <math.h>
 
-static pl_soft_point *points_of(const pl_soft_step *s)
-{
-    return s->points.data;
-}
-
 //---- bodies and obstacles ------------------------------------------------------------------------
 
 static pl_soft_body body_of(const plumb_world *world, uint32_t row)
@@ -148,7 +143,7 @@ static bool near_piece(plumb_world *world, const pl_softbody *item, uint32_t fir
     }
     uint32_t obstacle = PL_NONE;
     for (uint32_t i = first; i < first + item->nodes; ++i) {
-        const pl_soft_point *p = points_of(s) + i;
+        const pl_soft_point *p = pl_soft_points(s) + i;
         const double by = p->radius > 0 && !p->pinned ? way_of(world, p, dt) : -INFINITY;
         if (p->x + by < reach.low_x || p->x - by > reach.high_x || p->y + by < reach.low_y ||
             p->y - by > reach.high_y) {
@@ -175,7 +170,7 @@ static region region_of(const plumb_world *world, const pl_softbody *item, uint3
 {
     region r = { INFINITY, INFINITY, -INFINITY, -INFINITY };
     for (uint32_t i = first; i < first + item->nodes; ++i) {
-        const pl_soft_point *p = points_of(world->softbodies.step) + i;
+        const pl_soft_point *p = pl_soft_points(world->softbodies.step) + i;
         if (p->radius > 0 && !p->pinned) {
             widen(&r, p->x, p->y, way_of(world, p, dt));
         }

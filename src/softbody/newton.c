@@ -20,16 +20,6 @@
 #define SMALL 1e-3 // of what gravity adds to velocities: what the last pass may
 #define TOLD  0.1  // likewise: what is told, where passes end before
 
-static pl_soft_point *points_of(const pl_soft_step *s)
-{
-    return s->points.data;
-}
-
-static pl_soft_body *bodies_of(const pl_soft_step *s)
-{
-    return s->bodies.data;
-}
-
 static void turn(pl_soft_body *b, double angle)
 {
     double s, c;
@@ -55,7 +45,7 @@ static void see_bodies(const plumb_world *world, double since, double h)
 {
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t i = 0; i < s->body_count; ++i) {
-        pl_soft_body *b = &bodies_of(s)[i];
+        pl_soft_body *b = &pl_soft_bodies(s)[i];
         if (b->slot == PL_NONE) {
             b->x = b->x0 + since * b->vx, b->y = b->y0 + since * b->vy;
             turn(b, since * b->w);
@@ -69,22 +59,17 @@ static void see_bodies(const plumb_world *world, double since, double h)
         turn(b, (double)now->da);
     }
     for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_point *p = &points_of(s)[i];
+        pl_soft_point *p = &pl_soft_points(s)[i];
         if (p->body == PL_NONE) {
             continue;
         }
-        hold(&bodies_of(s)[p->body], h, p);
+        hold(&pl_soft_bodies(s)[p->body], h, p);
     }
-}
-
-static uint32_t nodes_of(const plumb_world *world, const pl_soft_member *m)
-{
-    return pl_softbody_items(&world->softbodies)[m->item].nodes;
 }
 
 static pl_soft_body *body_of(const pl_soft_step *s, uint32_t grouped)
 {
-    return &bodies_of(s)[((const uint32_t *)s->grouped.data)[grouped]];
+    return &pl_soft_bodies(s)[((const uint32_t *)s->grouped.data)[grouped]];
 }
 
 // What velocities gain if nothing pulls.
@@ -97,8 +82,8 @@ static void guess(const plumb_world *world, const pl_soft_group *g, double h)
     }
     for (uint32_t k = g->first_member; k < g->end_member; ++k) {
         const pl_soft_member *m = &pl_soft_members(s)[k];
-        for (uint32_t i = m->at.point; i < m->at.point + nodes_of(world, m); ++i) {
-            const pl_soft_point *p = &points_of(s)[i];
+        for (uint32_t i = m->at.point; i < m->at.point + m->nodes; ++i) {
+            const pl_soft_point *p = &pl_soft_points(s)[i];
             if (p->block != PL_NONE && p->body == PL_NONE) {
                 u[3 * (size_t)p->block] = h * (double)world->gravity.x;
                 u[3 * (size_t)p->block + 1] = h * (double)world->gravity.y;
@@ -118,7 +103,7 @@ static void change(const plumb_world *world, const pl_soft_group *g)
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t k = g->first_member; k < g->end_member; ++k) {
         const pl_soft_member *m = &pl_soft_members(s)[k];
-        pl_soft_change(s, m->at.point, nodes_of(world, m));
+        pl_soft_change(s, m->at.point, m->nodes);
     }
 }
 
@@ -148,8 +133,8 @@ static double add_nodes(const plumb_world *world, const pl_soft_member *m, doubl
     const pl_soft_matrix *mx = &s->matrix;
     const double gx = h * (double)world->gravity.x, gy = h * (double)world->gravity.y;
     double energy = 0;
-    for (uint32_t i = m->at.point; i < m->at.point + nodes_of(world, m); ++i) {
-        const pl_soft_point *p = &points_of(s)[i];
+    for (uint32_t i = m->at.point; i < m->at.point + m->nodes; ++i) {
+        const pl_soft_point *p = &pl_soft_points(s)[i];
         if (p->block == PL_NONE || p->body != PL_NONE) {
             continue;
         }
@@ -204,7 +189,7 @@ static size_t size_of(const pl_soft_group *g)
 // The function of a group that is to be least, where u is, but for its triangles.
 static double evaluate_rest(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill)
 {
-    const double pushes = pl_soft_add_pushes(world, g, h, fill);
+    const double pushes = pl_soft_add_pushes(world->softbodies.step, g, h, fill);
     const double masses = add_masses(world, g, h, fill) + pushes;
     return masses + pl_soft_elements(world, g, h, fill) +
            pl_soft_press(world->softbodies.step, g, h, fill);
@@ -328,14 +313,14 @@ static void store_substep(plumb_world *world, double h)
 {
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_point *p = &points_of(s)[i];
+        pl_soft_point *p = &pl_soft_points(s)[i];
         if (p->body == PL_NONE) {
             p->x += h * (p->vx + p->cx / 2), p->y += h * (p->vy + p->cy / 2);
             p->vx += p->cx, p->vy += p->cy;
         }
     }
     for (uint32_t i = 0; i < s->body_count; ++i) {
-        const pl_soft_body *b = &bodies_of(s)[i];
+        const pl_soft_body *b = &pl_soft_bodies(s)[i];
         if (b->block != PL_NONE) {
             pl_solver_motion *motion = &pl_solver_motions(&world->solver)[b->slot];
             const double *u = s->matrix.u + 3 * (size_t)b->block;
@@ -346,7 +331,7 @@ static void store_substep(plumb_world *world, double h)
     }
     const pl_soft_contact *contacts = s->contacts.data;
     for (uint32_t i = 0; i < s->contact_count; ++i) {
-        bodies_of(s)[contacts[i].body].touched |= contacts[i].force > 0;
+        pl_soft_bodies(s)[contacts[i].body].touched |= contacts[i].force > 0;
     }
 }
 
@@ -366,11 +351,10 @@ static bool has_contacts(const pl_soft_step *s, const pl_soft_group *g)
            pl_soft_members(s)[g->first_member].first_contact;
 }
 
-// Rounds of at most so many passes. Whether the group has settled.
-static bool settle(plumb_world *world, pl_soft_group *g, double h, int passes)
+// Rounds of at most so many passes; `fall` [m/s]: what gravity adds. Whether the group has settled.
+static bool settle(plumb_world *world, pl_soft_group *g, double h, double fall, int passes)
 {
     const pl_soft_step *s = world->softbodies.step;
-    const double fall = h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
     const double small = SMALL * fall, told = TOLD * fall;
     const double enough = g->mass * (small * small + 1e-12);
     const bool touches = has_contacts(s, g);
@@ -412,7 +396,7 @@ void pl_soft_newton(plumb_world *world, double h, int passes)
     s->creep = CREEP * fall > CREEP_LEAST ? CREEP * fall : CREEP_LEAST;
     bool settled = true;
     for (uint32_t k = 0; k < s->group_count; ++k) {
-        settled = settle(world, &groups[k], h, passes) && settled;
+        settled = settle(world, &groups[k], h, fall, passes) && settled;
     }
     s->missed += settled ? 0 : 1;
     store_substep(world, h);

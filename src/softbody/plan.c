@@ -12,16 +12,6 @@
 
 #include <string.h>
 
-static pl_soft_point *points_of(const pl_soft_step *s)
-{
-    return s->points.data;
-}
-
-static pl_soft_body *bodies_of(const pl_soft_step *s)
-{
-    return s->bodies.data;
-}
-
 //---- unknowns ------------------------------------------------------------------------------------
 
 // Gives a body what the solver has of it. False: its motion is known.
@@ -51,7 +41,7 @@ static uint32_t number_unknowns(plumb_world *world)
     uint8_t *size = s->shapes.data;
     uint32_t count = 0;
     for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_point *p = &points_of(s)[i];
+        pl_soft_point *p = &pl_soft_points(s)[i];
         p->block = PL_NONE;
         if (!p->pinned) {
             size[count] = 2;
@@ -59,7 +49,7 @@ static uint32_t number_unknowns(plumb_world *world)
         }
     }
     for (uint32_t i = 0; i < s->body_count; ++i) {
-        pl_soft_body *b = &bodies_of(s)[i];
+        pl_soft_body *b = &pl_soft_bodies(s)[i];
         b->block = PL_NONE;
         if (take_slot(world, b)) {
             size[count] = 3;
@@ -67,9 +57,9 @@ static uint32_t number_unknowns(plumb_world *world)
         }
     }
     for (uint32_t i = 0; i < s->point_count; ++i) {
-        pl_soft_point *p = &points_of(s)[i];
+        pl_soft_point *p = &pl_soft_points(s)[i];
         if (p->body != PL_NONE) {
-            p->block = bodies_of(s)[p->body].block;
+            p->block = pl_soft_bodies(s)[p->body].block;
         }
     }
     for (uint32_t i = 0; i < s->member_count; ++i) {
@@ -104,7 +94,7 @@ static void pair_member(const pl_softbodies *all, const pl_soft_member *m)
 {
     pl_soft_step *s = all->step;
     const pl_softbody *item = &pl_softbody_items(all)[m->item];
-    const pl_soft_point *p = points_of(s) + m->at.point;
+    const pl_soft_point *p = pl_soft_points(s) + m->at.point;
     for (uint32_t k = 0; k < item->edges; ++k) {
         const plumb_softbody_edge *e = &pl_softbody_edges(all)[m->at.edge + k];
         if ((e->flags & PLUMB_EDGE_TORN) == 0) {
@@ -133,23 +123,22 @@ static void pair_all(const pl_softbodies *all)
     }
     for (uint32_t i = 0; i < s->near_count; ++i) {
         const pl_soft_obstacle *o = (const pl_soft_obstacle *)s->obstacles.data + near[i].obstacle;
-        pair(s, points_of(s)[near[i].point].block, bodies_of(s)[o->body].block);
+        pair(s, pl_soft_points(s)[near[i].point].block, pl_soft_bodies(s)[o->body].block);
     }
 }
 
 //---- groups --------------------------------------------------------------------------------------
 
 // Of components of the matrix, and behind them of members: who leads the group of each.
-static void find_leaders(const pl_softbodies *all, uint32_t *leaders)
+static void find_leaders(const pl_soft_step *s, uint32_t *leaders)
 {
-    const pl_soft_step *s = all->step;
     const pl_elimination *e = &s->elimination;
     pl_union_reset(leaders, e->component_count + s->member_count);
     for (uint32_t i = 0; i < s->member_count; ++i) {
         const pl_soft_member *m = &pl_soft_members(s)[i];
         const uint32_t own = e->component_count + i;
-        for (uint32_t n = 0; n < pl_softbody_items(all)[m->item].nodes; ++n) {
-            const uint32_t block = points_of(s)[m->at.point + n].block;
+        for (uint32_t n = 0; n < m->nodes; ++n) {
+            const uint32_t block = pl_soft_points(s)[m->at.point + n].block;
             if (block != PL_NONE) {
                 pl_union_join(leaders, own, e->component[block]);
             }
@@ -165,7 +154,7 @@ static void find_leaders(const pl_softbodies *all, uint32_t *leaders)
 static void sort_members(pl_soft_step *s, uint32_t *leaders, uint32_t *group)
 {
     pl_soft_member *members = pl_soft_members(s), *copy = members + s->member_count;
-    pl_soft_group *groups = s->groups.data;
+    pl_soft_group *groups = pl_soft_groups(s);
     const uint32_t components = s->elimination.component_count;
     memset(group, 0xff, (components + s->member_count) * sizeof *group);
     s->group_count = 0;
@@ -180,9 +169,7 @@ static void sort_members(pl_soft_step *s, uint32_t *leaders, uint32_t *group)
     }
     uint32_t at = 0;
     for (uint32_t k = 0; k < s->group_count; ++k) {
-        groups[k].first_member = at;
-        at += groups[k].end_member;
-        groups[k].end_member = groups[k].first_member;
+        pl_range_open(&groups[k].first_member, &groups[k].end_member, &at);
     }
     for (uint32_t i = 0; i < s->member_count; ++i) {
         members[groups[group[pl_union_leader(leaders, components + i)]].end_member++] = copy[i];
@@ -194,7 +181,7 @@ static uint32_t place_components(pl_soft_step *s, uint32_t *leaders, const uint3
                                  uint32_t *place)
 {
     const pl_elimination *e = &s->elimination;
-    pl_soft_group *groups = s->groups.data;
+    pl_soft_group *groups = pl_soft_groups(s);
     for (uint32_t c = 0; c < e->component_count; ++c) {
         const uint32_t k = group[pl_union_leader(leaders, c)];
         if (k != PL_NONE) {
@@ -203,9 +190,7 @@ static uint32_t place_components(pl_soft_step *s, uint32_t *leaders, const uint3
     }
     uint32_t at = 0;
     for (uint32_t k = 0; k < s->group_count; ++k) {
-        groups[k].first_block = at;
-        at += groups[k].end_block;
-        groups[k].end_block = groups[k].first_block;
+        pl_range_open(&groups[k].first_block, &groups[k].end_block, &at);
     }
     for (uint32_t c = 0; c < e->component_count; ++c) {
         const uint32_t k = group[pl_union_leader(leaders, c)];
@@ -222,7 +207,7 @@ static uint32_t place_components(pl_soft_step *s, uint32_t *leaders, const uint3
 static uint32_t group_of_body(const pl_soft_step *s, uint32_t body, uint32_t *leaders,
                               const uint32_t *group)
 {
-    const uint32_t unknown = bodies_of(s)[body].block;
+    const uint32_t unknown = pl_soft_bodies(s)[body].block;
     return unknown == PL_NONE ? PL_NONE
                               : group[pl_union_leader(leaders, s->elimination.component[unknown])];
 }
@@ -230,7 +215,7 @@ static uint32_t group_of_body(const pl_soft_step *s, uint32_t body, uint32_t *le
 // Bodies that are unknowns, by their groups.
 static void sort_bodies(pl_soft_step *s, uint32_t *leaders, const uint32_t *group)
 {
-    pl_soft_group *groups = s->groups.data;
+    pl_soft_group *groups = pl_soft_groups(s);
     for (uint32_t i = 0; i < s->body_count; ++i) {
         const uint32_t k = group_of_body(s, i, leaders, group);
         if (k != PL_NONE) {
@@ -239,9 +224,7 @@ static void sort_bodies(pl_soft_step *s, uint32_t *leaders, const uint32_t *grou
     }
     uint32_t at = 0;
     for (uint32_t k = 0; k < s->group_count; ++k) {
-        groups[k].first_body = at;
-        at += groups[k].end_body;
-        groups[k].end_body = groups[k].first_body;
+        pl_range_open(&groups[k].first_body, &groups[k].end_body, &at);
     }
     for (uint32_t i = 0; i < s->body_count; ++i) {
         const uint32_t k = group_of_body(s, i, leaders, group);
@@ -255,14 +238,11 @@ static void weigh_groups(const pl_softbodies *all)
 {
     pl_soft_step *s = all->step;
     for (uint32_t k = 0; k < s->group_count; ++k) {
-        pl_soft_group *g = (pl_soft_group *)s->groups.data + k;
+        pl_soft_group *g = &pl_soft_groups(s)[k];
         for (uint32_t i = g->first_member; i < g->end_member; ++i) {
             const pl_soft_member *m = &pl_soft_members(s)[i];
-            const pl_softbody *item = &pl_softbody_items(all)[m->item];
-            g->triangles = g->triangles || item->triangles > 0;
-            for (uint32_t n = 0; n < item->nodes; ++n) {
-                g->mass += (double)pl_softbody_nodes(all)[m->at.node + n].mass;
-            }
+            g->triangles = g->triangles || pl_softbody_items(all)[m->item].triangles > 0;
+            g->mass += m->mass;
         }
     }
 }
@@ -289,10 +269,10 @@ static void rename_unknowns(pl_soft_step *s, const uint32_t *place, uint32_t unk
         }
     }
     for (uint32_t i = 0; i < s->point_count; ++i) {
-        points_of(s)[i].block = block_of(e, place, points_of(s)[i].block);
+        pl_soft_points(s)[i].block = block_of(e, place, pl_soft_points(s)[i].block);
     }
     for (uint32_t i = 0; i < s->body_count; ++i) {
-        bodies_of(s)[i].block = block_of(e, place, bodies_of(s)[i].block);
+        pl_soft_bodies(s)[i].block = block_of(e, place, pl_soft_bodies(s)[i].block);
     }
     for (uint32_t i = 0; i < s->member_count; ++i) {
         pl_soft_members(s)[i].gas = block_of(e, place, pl_soft_members(s)[i].gas);
@@ -340,7 +320,7 @@ bool pl_softbodies_plan(plumb_world *world)
     const uint32_t parts = s->elimination.component_count + s->member_count;
     uint32_t *leaders = (uint32_t *)s->grouped.data + s->body_count;
     uint32_t *group = leaders + parts, *place = group + parts;
-    find_leaders(all, leaders);
+    find_leaders(s, leaders);
     sort_members(s, leaders, group);
     sort_bodies(s, leaders, group);
     weigh_groups(all);

@@ -5,7 +5,7 @@
 
 static const pl_soft_body *holder_of(const pl_soft_step *s, const pl_soft_point *p)
 {
-    return p->body == PL_NONE ? NULL : (const pl_soft_body *)s->bodies.data + p->body;
+    return p->body == PL_NONE ? NULL : pl_soft_bodies(s) + p->body;
 }
 
 void pl_soft_follow(const pl_soft_step *s, const pl_soft_point *p, double j[6])
@@ -77,7 +77,7 @@ void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y)
 
 void pl_soft_change(const pl_soft_step *s, uint32_t first, uint32_t count)
 {
-    pl_soft_point *points = s->points.data;
+    pl_soft_point *points = pl_soft_points(s);
     for (uint32_t i = first; i < first + count; ++i) {
         pl_soft_point *p = &points[i];
         const double *u = s->matrix.u + (p->block == PL_NONE ? 0 : 3 * (size_t)p->block);

@@ -129,14 +129,13 @@ static double add_push(const pl_soft_step *s, uint32_t i, double h, pl_soft_fill
     return m * (p->cx * p->cx + p->cy * p->cy) / 2 - (x * p->cx + y * p->cy);
 }
 
-double pl_soft_add_pushes(const plumb_world *world, const pl_soft_group *g, double h,
+double pl_soft_add_pushes(const pl_soft_step *s, const pl_soft_group *g, double h,
                           pl_soft_fill fill)
 {
-    const pl_soft_step *s = world->softbodies.step;
     double energy = 0;
     for (uint32_t k = g->first_member; k < g->end_member && s->pushed; ++k) {
         const pl_soft_member *m = &pl_soft_members(s)[k];
-        for (uint32_t n = 0; n < pl_softbody_items(&world->softbodies)[m->item].nodes; ++n) {
+        for (uint32_t n = 0; n < m->nodes; ++n) {
             energy += add_push(s, m->at.point + n, h, fill);
         }
     }

@@ -34,6 +34,26 @@ static inline void pl_soft_node_velocity(const plumb_softbody_node *n, double ou
     out[1] = pl_soft_exact(n->velocity.y, n->velocity_rest.y);
 }
 
+static inline pl_soft_point *pl_soft_points(const pl_soft_step *s)
+{
+    return (pl_soft_point *)s->points.data;
+}
+
+static inline pl_soft_body *pl_soft_bodies(const pl_soft_step *s)
+{
+    return (pl_soft_body *)s->bodies.data;
+}
+
+static inline pl_soft_member *pl_soft_members(const pl_soft_step *s)
+{
+    return (pl_soft_member *)s->members.data;
+}
+
+static inline pl_soft_group *pl_soft_groups(const pl_soft_step *s)
+{
+    return (pl_soft_group *)s->groups.data;
+}
+
 //---- step.c --------------------------------------------------------------------------------------
 
 // Its scratch, if there is none. False when out of memory.
@@ -47,16 +67,6 @@ bool pl_softbodies_couple(const plumb_world *world, uint8_t *called);
 
 // Behind the graph: slots, groups, the structure of the system. False when out of memory.
 bool pl_softbodies_plan(plumb_world *world);
-
-static inline pl_soft_member *pl_soft_members(const pl_soft_step *s)
-{
-    return (pl_soft_member *)s->members.data;
-}
-
-static inline pl_soft_group *pl_soft_groups(const pl_soft_step *s)
-{
-    return (pl_soft_group *)s->groups.data;
-}
 
 //---- foresee.c -----------------------------------------------------------------------------------
 
@@ -75,7 +85,7 @@ void pl_soft_drop_pushes(plumb_world *world);
 // They go with the soft bodies as these turn: a substep begins.
 void pl_soft_turn_pushes(plumb_world *world, double h);
 // As pl_soft_elements.
-double pl_soft_add_pushes(const plumb_world *world, const pl_soft_group *g, double h,
+double pl_soft_add_pushes(const pl_soft_step *s, const pl_soft_group *g, double h,
                           pl_soft_fill fill);
 
 //---- newton.c ------------------------------------------------------------------------------------

@@ -51,16 +51,6 @@ void pl_softbodies_free(pl_memory *memory, pl_softbodies *s)
     }
 }
 
-static pl_soft_point *points_of(const pl_soft_step *s)
-{
-    return s->points.data;
-}
-
-static pl_soft_body *bodies_of(const pl_soft_step *s)
-{
-    return s->bodies.data;
-}
-
 //---- gathered ------------------------------------------------------------------------------------
 
 static double mass_of(const pl_softbodies *all, const pl_softbody *item, uint32_t first)
@@ -82,16 +72,16 @@ static bool is_moored(const plumb_world *world, const pl_softbody *item, uint32_
     return moored;
 }
 
-static void gather_nodes(const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
+static void gather_nodes(const plumb_world *world, const pl_softbody *item, const pl_soft_member *m)
 {
     const pl_softbodies *all = &world->softbodies;
+    const pl_softbody_place at = m->at;
     const bool moored = is_moored(world, item, at.pin);
     const pl_soft_shove *pushes = all->step->pushed ? all->step->pushes.data : NULL;
-    const double mass = mass_of(all, item, at.node);
-    const double heavy = (pushes != NULL ? pushes[at.node].heavy : 0) + mass;
+    const double heavy = (pushes != NULL ? pushes[at.node].heavy : 0) + m->mass;
     for (uint32_t i = 0; i < item->nodes; ++i) {
         const plumb_softbody_node *n = &pl_softbody_nodes(all)[at.node + i];
-        points_of(all->step)[at.point + i] =
+        pl_soft_points(all->step)[at.point + i] =
             (pl_soft_point){ .x = pl_soft_exact(n->position.x, n->position_rest.x),
                              .y = pl_soft_exact(n->position.y, n->position_rest.y),
                              .vx = pl_soft_exact(n->velocity.x, n->velocity_rest.x),
@@ -113,7 +103,7 @@ static bool gather_pins(plumb_world *world, const pl_softbody *item, pl_softbody
     for (uint32_t k = 0; k < item->pins; ++k) {
         const plumb_softbody_pin *pin = &pl_softbody_pins(all)[at.pin + k];
         const uint32_t row = pl_body_row(world, pin->body);
-        pl_soft_point *p = &points_of(all->step)[at.point + pin->node];
+        pl_soft_point *p = &pl_soft_points(all->step)[at.point + pin->node];
         p->pinned = true;
         p->px = (double)pin->point.x;
         p->py = (double)pin->point.y;
@@ -128,7 +118,7 @@ static bool gather_pins(plumb_world *world, const pl_softbody *item, pl_softbody
         if (p->body == PL_NONE) {
             return false;
         }
-        bodies_of(all->step)[p->body].touched = true;
+        pl_soft_bodies(all->step)[p->body].touched = true;
     }
     return true;
 }
@@ -142,8 +132,11 @@ static bool gather(plumb_world *world)
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_softbody *item = &pl_softbody_items(all)[i];
         if (!item->asleep) {
-            pl_soft_members(s)[s->member_count++] = (pl_soft_member){ .item = i, .at = at };
-            gather_nodes(world, item, at);
+            pl_soft_member *m = &pl_soft_members(s)[s->member_count++];
+            *m = (pl_soft_member){
+                .item = i, .nodes = item->nodes, .mass = mass_of(all, item, at.node), .at = at
+            };
+            gather_nodes(world, item, m);
             if (!gather_pins(world, item, at)) {
                 return false;
             }
@@ -191,8 +184,8 @@ bool pl_softbodies_find(plumb_world *world, real dt)
     s->missed = 0;
     memset(s->rows.data, 0, world->dynamic_count);
     for (uint32_t i = 0; i < s->body_count; ++i) {
-        if (bodies_of(s)[i].row < world->dynamic_count) {
-            ((uint8_t *)s->rows.data)[bodies_of(s)[i].row] = 1;
+        if (pl_soft_bodies(s)[i].row < world->dynamic_count) {
+            ((uint8_t *)s->rows.data)[pl_soft_bodies(s)[i].row] = 1;
             ++s->coupled;
         }
     }
@@ -213,8 +206,8 @@ bool pl_softbodies_couple(const plumb_world *world, uint8_t *called)
 {
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t i = 0; i < s->body_count && s->coupled > 0; ++i) {
-        if (bodies_of(s)[i].row < world->dynamic_count) {
-            called[bodies_of(s)[i].row] |= PL_CALLED_ALONE;
+        if (pl_soft_bodies(s)[i].row < world->dynamic_count) {
+            called[pl_soft_bodies(s)[i].row] |= PL_CALLED_ALONE;
         }
     }
     return s->coupled > 0;
@@ -253,7 +246,7 @@ static void put(double value, real *to, real *rest)
 static void follow_body(const plumb_world *world, pl_soft_point *p)
 {
     const pl_bodies *b = &world->bodies;
-    const uint32_t row = pl_body_row(world, bodies_of(world->softbodies.step)[p->body].body);
+    const uint32_t row = pl_body_row(world, pl_soft_bodies(world->softbodies.step)[p->body].body);
     if (row == PL_NONE) {
         return;
     }
@@ -270,7 +263,7 @@ static void store_nodes_of(plumb_world *world, uint32_t count, pl_softbody_place
 {
     const pl_softbodies *all = &world->softbodies;
     for (uint32_t i = 0; i < count; ++i) {
-        pl_soft_point *p = &points_of(all->step)[at.point + i];
+        pl_soft_point *p = &pl_soft_points(all->step)[at.point + i];
         plumb_softbody_node *n = &pl_softbody_nodes(all)[at.node + i];
         if (p->body != PL_NONE) {
             follow_body(world, p);
@@ -301,7 +294,7 @@ static void stir(plumb_world *world)
 {
     const pl_soft_step *s = world->softbodies.step;
     for (uint32_t i = 0; i < s->body_count; ++i) {
-        const pl_soft_body *b = &bodies_of(s)[i];
+        const pl_soft_body *b = &pl_soft_bodies(s)[i];
         const uint32_t row = b->touched ? pl_body_row(world, b->body) : PL_NONE;
         if (row != PL_NONE && pl_row_is_asleep(world, row)) {
             pl_sleep_disturb(world, row);

@@ -12,6 +12,28 @@
 
 enum { MOST = 60 };
 
+typedef struct fixture {
+    pl_memory memory;
+    pl_elimination e;
+} fixture;
+
+static int open_memory(void **state)
+{
+    static fixture f;
+    f = (fixture){ .e = { .count = 0 } };
+    pl_memory_init(&f.memory, NULL);
+    *state = &f;
+    return 0;
+}
+
+static int close_memory(void **state)
+{
+    fixture *f = *state;
+    pl_elimination_free(&f->memory, &f->e);
+    assert_int_equal(f->memory.bytes, 0);
+    return 0;
+}
+
 typedef struct graph {
     uint32_t count;
     bool near[MOST][MOST];
@@ -25,9 +47,10 @@ static void join(graph *g, uint32_t a, uint32_t b)
 }
 
 // Pairs in both directions, some of them twice.
-static void run(const graph *g, pl_memory *memory, pl_elimination *e, uint32_t most)
+static void run(const graph *g, fixture *f, uint32_t most)
 {
-    assert_true(pl_elimination_open(memory, e, g->count, 3 * MOST * MOST / 2));
+    pl_elimination *e = &f->e;
+    assert_true(pl_elimination_open(&f->memory, e, g->count, 3 * MOST * MOST / 2));
     for (uint32_t a = 0; a < g->count; ++a) {
         for (uint32_t b = 0; b < g->count; ++b) {
             if (g->near[a][b] && (a < b || (a + b) % 3 == 0)) {
@@ -36,7 +59,7 @@ static void run(const graph *g, pl_memory *memory, pl_elimination *e, uint32_t m
             }
         }
     }
-    assert_true(pl_elimination_run(memory, e, most));
+    assert_true(pl_elimination_run(&f->memory, e, most));
 }
 
 // Each vertex once; each component by itself, in order of lowest vertices.
@@ -110,10 +133,7 @@ static void assert_least(const graph *g, const pl_elimination *e)
 
 static void random_graphs(void **state)
 {
-    (void)state;
-    pl_memory memory;
-    pl_memory_init(&memory, NULL);
-    pl_elimination e = { .count = 0 };
+    fixture *f = *state;
     uint32_t seed = 7;
     for (int n = 0; n < 400; ++n) {
         graph g = { .count = sim_random(&seed) % MOST };
@@ -121,22 +141,17 @@ static void random_graphs(void **state)
         for (uint32_t i = 0; i < pairs; ++i) {
             join(&g, sim_random(&seed) % g.count, sim_random(&seed) % g.count);
         }
-        run(&g, &memory, &e, UINT32_MAX);
-        assert_order(&g, &e);
-        assert_fill(&g, &e);
-        assert_least(&g, &e);
+        run(&g, f, UINT32_MAX);
+        assert_order(&g, &f->e);
+        assert_fill(&g, &f->e);
+        assert_least(&g, &f->e);
     }
-    pl_elimination_free(&memory, &e);
-    assert_int_equal(memory.bytes, 0);
 }
 
 // A forest fills in nothing, however many neighbours one of a tree has.
 static void trees_fill_in_nothing(void **state)
 {
-    (void)state;
-    pl_memory memory;
-    pl_memory_init(&memory, NULL);
-    pl_elimination e = { .count = 0 };
+    fixture *f = *state;
     uint32_t seed = 11;
     for (uint32_t n = 0; n < 100; ++n) {
         graph g = { .count = MOST };
@@ -148,20 +163,16 @@ static void trees_fill_in_nothing(void **state)
                 join(&g, v, n % 2 == 0 ? sim_random(&seed) % v : v - 1);
             }
         }
-        run(&g, &memory, &e, UINT32_MAX);
-        assert_int_equal(assert_fill(&g, &e), MOST - trees);
-        assert_int_equal(e.component_count, trees);
+        run(&g, f, UINT32_MAX);
+        assert_int_equal(assert_fill(&g, &f->e), MOST - trees);
+        assert_int_equal(f->e.component_count, trees);
     }
-    pl_elimination_free(&memory, &e);
 }
 
 // A rope with a crate on every fourth node, as a crate touches three: it fills in a few entries a crate, not their square.
 static void what_hangs_on_a_rope_fills_in_little(void **state)
 {
-    (void)state;
-    pl_memory memory;
-    pl_memory_init(&memory, NULL);
-    pl_elimination e = { .count = 0 };
+    fixture *f = *state;
     graph g = { .count = 60 };
     for (uint32_t v = 1; v < 48; ++v) {
         join(&g, v - 1, v);
@@ -171,18 +182,14 @@ static void what_hangs_on_a_rope_fills_in_little(void **state)
             join(&g, crate, 4 * (crate - 48) + k);
         }
     }
-    run(&g, &memory, &e, UINT32_MAX);
-    assert_true(assert_fill(&g, &e) <= 47 + 36 + 12);
-    pl_elimination_free(&memory, &e);
+    run(&g, f, UINT32_MAX);
+    assert_true(assert_fill(&g, &f->e) <= 47 + 36 + 12);
 }
 
 // One that is too dense has no entries; those beside it are as they are alone.
 static void what_is_dense_is_left_alone(void **state)
 {
-    (void)state;
-    pl_memory memory;
-    pl_memory_init(&memory, NULL);
-    pl_elimination e = { .count = 0 };
+    fixture *f = *state;
     graph g = { .count = 30 };
     for (uint32_t v = 0; v < 30; ++v) {
         for (uint32_t u = 0; u < v; ++u) {
@@ -192,24 +199,24 @@ static void what_is_dense_is_left_alone(void **state)
             }
         }
     }
-    run(&g, &memory, &e, 20);
-    assert_order(&g, &e);
-    assert_int_equal(e.component_count, 3);
+    run(&g, f, 20);
+    assert_order(&g, &f->e);
+    assert_int_equal(f->e.component_count, 3);
     for (uint32_t i = 0; i < 30; ++i) {
         const bool dense = i >= 10 && i < 20;
-        assert_int_equal(e.fill[i], dense || i == 9 || i == 29 ? 0 : 1);
+        assert_int_equal(f->e.fill[i], dense || i == 9 || i == 29 ? 0 : 1);
     }
-    assert_int_equal(e.entry_count, 18);
-    pl_elimination_free(&memory, &e);
+    assert_int_equal(f->e.entry_count, 18);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_graphs),
-        cmocka_unit_test(trees_fill_in_nothing),
-        cmocka_unit_test(what_hangs_on_a_rope_fills_in_little),
-        cmocka_unit_test(what_is_dense_is_left_alone),
+        cmocka_unit_test_setup_teardown(random_graphs, open_memory, close_memory),
+        cmocka_unit_test_setup_teardown(trees_fill_in_nothing, open_memory, close_memory),
+        cmocka_unit_test_setup_teardown(what_hangs_on_a_rope_fills_in_little, open_memory,
+                                        close_memory),
+        cmocka_unit_test_setup_teardown(what_is_dense_is_left_alone, open_memory, close_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

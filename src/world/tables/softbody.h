@@ -116,7 +116,8 @@ typedef struct pl_soft_matrix {
 
 // A soft body that is awake, in a step.
 typedef struct pl_soft_member {
-    uint32_t item, gas;                    // of soft bodies; its block, PL_NONE: no gas
+    uint32_t item, nodes, gas;             // of soft bodies; how many; its block, PL_NONE: no gas
+    double mass;                           // [kg] of all nodes
     pl_softbody_place at;
     uint32_t first_near, end_near;         // what its nodes are near to
     uint32_t first_contact, end_contact;   // of a substep
@@ -127,7 +128,7 @@ typedef struct pl_soft_group {
     uint32_t first_member, end_member;
     uint32_t first_body, end_body;   // of `grouped`: those that are unknowns
     uint32_t first_block, end_block;
-    double mass;    // [kg] of all nodes
+    double mass;    // [kg] of its members
     bool triangles; // it has some
     int pass;    // of this substep's iteration; friction acts from the second on
 } pl_soft_group;
