@@ -196,6 +196,7 @@ static void close_gaps(plumb_world *world)
 {
     pl_narrow *narrow = &world->narrow;
     pl_manifold *m = pl_manifolds(narrow), *borne = world->internal_edges.borne.data;
+    pl_ends *ends = narrow->ends.data;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     uint32_t kept = 0, borne_count = 0;
     pl_narrow_forget_summary(narrow);
@@ -209,12 +210,12 @@ static void close_gaps(plumb_world *world)
         }
         if (kept != i) {
             m[kept] = m[i];
+            ends[kept] = ends[i];
             pairs[m[kept].pair].manifold = kept;
         }
         pl_narrow_sum_up(narrow, &m[kept]);
         ++kept;
     }
-    narrow->ends_stale |= kept != narrow->manifold_count;
     narrow->manifold_count = kept;
     narrow->borne_count = borne_count;
     for (uint32_t i = 0; i < borne_count; ++i) {

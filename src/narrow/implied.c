@@ -8,7 +8,8 @@
 // Only points are left out that leave another one to their manifold: pairs keep their contacts, and events their touches.
 //
 // Reads: manifolds, pieces. Writes: manifolds. Order: behind all that makes and judges them. Cost: O(manifolds), where bodies have
-// several pieces or pieces that nothing moves are several; for each of these what the one of its bodies has that has fewer.
+// several pieces or pieces that nothing moves are several; where two have several manifolds, for each of these what the one of its
+// bodies has that has fewer.
 #include "narrow/narrow.h"
 
 #include "world/state.h"
@@ -23,6 +24,7 @@
 typedef struct search {
     plumb_world *world;
     pl_manifold *manifolds;
+    const pl_ends *ends;  // a manifold: its bodies
     const uint32_t *next; // a manifold: the one before it of that body
     uint32_t row, last;
     uint32_t movable; // rows
@@ -34,10 +36,10 @@ typedef struct outer {
     double low_gap, high_gap; // [m]
 } outer;
 
-// The other body; immovable ones are one.
-static uint32_t other_of(const search *s, const pl_manifold *m)
+// The other body of manifold i; immovable ones are one.
+static uint32_t other_of(const search *s, uint32_t i)
 {
-    const uint32_t other = m->body_a == s->row ? m->body_b : m->body_a;
+    const uint32_t other = s->ends[i].a == s->row ? s->ends[i].b : s->ends[i].a;
     return other < s->movable ? other : PL_NONE;
 }
 
@@ -60,16 +62,18 @@ static bool is_along(const search *s, const pl_manifold *m, const pl_manifold *o
 {
     const double dot = (double)(m->nx * other->nx + m->ny * other->ny);
     const bool turned = (m->body_a == s->row) != (other->body_a == s->row);
-    return other_of(s, other) == other_of(s, m) && (turned ? -dot : dot) > SAME_NORMAL &&
-           is_plain(s, other);
+    return (turned ? -dot : dot) > SAME_NORMAL && is_plain(s, other);
 }
 
-static outer outer_of(const search *s, const pl_manifold *m)
+static outer outer_of(const search *s, const pl_manifold *m, uint32_t body)
 {
     outer o = { (double)NEAR_MAX, -(double)NEAR_MAX, 0, 0 };
     for (uint32_t i = s->last; i != PL_NONE; i = s->next[i]) {
         const pl_manifold *other = &s->manifolds[i];
-        for (uint32_t k = 0; k < other->count && is_along(s, m, other); ++k) {
+        if (other_of(s, i) != body || !is_along(s, m, other)) {
+            continue;
+        }
+        for (uint32_t k = 0; k < other->count; ++k) {
             const double at = place_of(s, m, other, k), gap = (double)other->point[k].separation;
             if (at < o.low) {
                 o.low = at, o.low_gap = gap;
@@ -113,12 +117,25 @@ static bool tells_touch(const pl_manifold *m, uint32_t k)
     return m->point[k].separation <= PL_TOUCH_HOLD;
 }
 
-static void look_at(const search *s, pl_manifold *m)
+// Whether two manifolds of the list are of the same bodies, of which i is one.
+static bool has_company(const search *s, uint32_t i)
 {
+    const uint32_t body = other_of(s, i);
+    for (uint32_t j = s->last; j != PL_NONE; j = s->next[j]) {
+        if (j != i && other_of(s, j) == body) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void look_at(const search *s, uint32_t i)
+{
+    pl_manifold *m = &s->manifolds[i];
     if (m->count < 2 || !is_plain(s, m)) {
         return;
     }
-    const outer o = outer_of(s, m);
+    const outer o = outer_of(s, m, other_of(s, i));
     const bool first = is_implied(s, m, 0, &o), second = is_implied(s, m, 1, &o);
     if (first != second && (tells_touch(m, first ? 1 : 0) || !tells_touch(m, first ? 0 : 1))) {
         leave_out(s->world, m, first ? 0 : 1);
@@ -140,13 +157,6 @@ static bool may_have_several(const plumb_world *world, pl_ends of, bool parts)
             (parts && (has_parts(world, low) || has_parts(world, high))));
 }
 
-static pl_ends ends_of(const pl_narrow *narrow, uint32_t i)
-{
-    const pl_manifold *m = &pl_manifolds(narrow)[i];
-    return narrow->ends_stale ? (pl_ends){ m->body_a, m->body_b }
-                              : ((const pl_ends *)narrow->ends.data)[i];
-}
-
 // The same for all manifolds of two bodies, whichever is A.
 static bool has_fewer(const uint32_t *many, uint32_t a, uint32_t b)
 {
@@ -157,12 +167,12 @@ static bool has_fewer(const uint32_t *many, uint32_t a, uint32_t b)
 static void chain(const plumb_world *world, bool parts, uint32_t *next, uint32_t *last,
                   uint32_t *many)
 {
-    const pl_narrow *narrow = &world->narrow;
-    const uint32_t rows = world->dynamic_count;
+    const pl_ends *ends = world->narrow.ends.data;
+    const uint32_t count = world->narrow.manifold_count, rows = world->dynamic_count;
     memset(last, 0xff, rows * sizeof *last);
     memset(many, 0, rows * sizeof *many);
-    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
-        const pl_ends of = ends_of(narrow, i);
+    for (uint32_t i = 0; i < count; ++i) {
+        const pl_ends of = ends[i];
         const bool may = may_have_several(world, of, parts);
         next[i] = may ? 0 : PL_NONE;
         if (may && of.a < rows) {
@@ -172,9 +182,9 @@ static void chain(const plumb_world *world, bool parts, uint32_t *next, uint32_t
             ++many[of.b];
         }
     }
-    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         if (next[i] != PL_NONE) {
-            const pl_ends of = ends_of(narrow, i);
+            const pl_ends of = ends[i];
             const uint32_t row =
                 of.b >= rows || (of.a < rows && has_fewer(many, of.a, of.b)) ? of.a : of.b;
             next[i] = last[row];
@@ -214,12 +224,15 @@ void pl_narrow_leave_out_implied(plumb_world *world)
     chain(world, dynamic > rows, next, last, last + rows);
     search s = { .world = world,
                  .manifolds = pl_manifolds(narrow),
+                 .ends = narrow->ends.data,
                  .next = next,
                  .movable = rows + world->kinematic_count };
     for (s.row = 0; s.row < rows; ++s.row) {
         s.last = last[s.row];
         for (uint32_t i = s.last; i != PL_NONE && next[s.last] != PL_NONE; i = next[i]) {
-            look_at(&s, &s.manifolds[i]);
+            if (has_company(&s, i)) {
+                look_at(&s, i);
+            }
         }
     }
 }

@@ -208,6 +208,7 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
 {
     pl_narrow *narrow = &world->narrow;
     pl_manifold *m = pl_manifolds(narrow);
+    pl_ends *ends = narrow->ends.data;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     uint32_t kept = 0, count = narrow->manifold_count;
     for (uint32_t i = 0; i < count; ++i) {
@@ -221,11 +222,11 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
         pairs[m[i].pair].manifold = kept;
         if (kept != i) {
             m[kept] = m[i];
+            ends[kept] = ends[i];
         }
         ++kept;
     }
     narrow->manifold_count = kept;
-    narrow->ends_stale |= kept != count;
     for (uint32_t i = 0; i < narrow->borne_count && kept != count; ++i) { // those behind close up
         m[kept + i] = m[count + i];
         pairs[m[kept + i].pair].manifold = kept + i;
