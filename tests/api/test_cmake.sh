@@ -58,7 +58,7 @@ game()
     local precision=$1
     shift
     rm -rf "$work/build"
-    cmake -S "$work/game" -B "$work/build" -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=Debug "$@" &&
+    cmake -S "$work/game" -B "$work/build" -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O0 "$@" &&
         cmake --build "$work/build" && "$work/build/game" | diff - "$work/$precision.hash"
 }
 lists() # of CMakeLists.txt
