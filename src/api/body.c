@@ -164,6 +164,14 @@ void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_
     pl_body_place_at(world, row, position, plumb_rot_make(angle));
 }
 
+static void lose_boxes(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        pl_piece_lose_box(world, p);
+    }
+}
+
 void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_rot q)
 {
     pl_bodies *b = &world->bodies;
@@ -176,7 +184,10 @@ void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plu
     pl_target_forget(world, row);
     if (b->first_piece[row] != PL_NONE) {
         pl_rearranged(world);
-        world->static_dirty |= b->type[row] == PLUMB_STATIC;
+        if (b->type[row] == PLUMB_STATIC) {
+            world->static_dirty = true;
+            lose_boxes(world, row);
+        }
         world->sleep.boxes_stale |= b->island[row] != PL_NONE;
         pl_internal_edges_move_static(world, row);
     }

@@ -138,8 +138,7 @@ void pl_sleep_see_anew(plumb_world *world, uint32_t piece)
         return;
     }
     if (world->bodies.type[row] == PLUMB_STATIC) {
-        pieces->fat[piece] =
-            (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+        pl_piece_lose_box(world, piece);
         world->static_dirty = true;
     }
 }

@@ -85,13 +85,17 @@ static void delist_resting(plumb_world *world, uint32_t slot)
     ++s->gone;
 }
 
+void pl_piece_lose_box(plumb_world *world, uint32_t slot)
+{
+    world->pieces.fat[slot] =
+        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+}
+
 // Files a piece that is in no grid.
 static void file(plumb_world *world, uint32_t slot, uint32_t row)
 {
     pl_pieces *pieces = &world->pieces;
-    // Empty: whatever the tight box is, the piece has left its fat box.
-    pieces->fat[slot] =
-        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    pl_piece_lose_box(world, slot);
     if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
         pieces->moving[slot] = PL_OUT;
     } else if (world->bodies.type[row] == PLUMB_STATIC) {

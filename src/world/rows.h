@@ -96,6 +96,8 @@ void pl_pieces_move_behind(plumb_world *world, uint32_t first, uint32_t other);
 void pl_pieces_remove(plumb_world *world, uint32_t first);
 // Moves a piece from the list of moving ones to that of resting ones, and back.
 void pl_piece_rest(plumb_world *world, uint32_t piece);
+// Empties its fat box: whatever its place is, it has left the box. Of static pieces only those get one anew.
+void pl_piece_lose_box(plumb_world *world, uint32_t piece);
 void pl_piece_move(plumb_world *world, uint32_t piece);
 
 //---- mass (mass.c) -------------------------------------------------------------------------------

@@ -58,6 +58,7 @@ void pl_waves_refile(plumb_world *world, plumb_shape shape, bool on)
          p = world->pieces.next_in_shape[p]) {
         uint8_t *flags = &world->pieces.flags[p];
         *flags = (uint8_t)(on ? *flags | PL_PIECE_WAVES : *flags & ~PL_PIECE_WAVES);
+        pl_piece_lose_box(world, p);
         pl_sleep_wake_swimmers(world, p);
     }
     world->static_dirty = true;
