@@ -24,10 +24,20 @@ WIDE_INLINE vf drive_speed(const parts *at, const pl_joint_pattern *p, int drive
     return vmin(vmax(speed, -down), up);
 }
 
-WIDE_INLINE void solve_single(row *r, const source *from, const single *s, vf driven,
-                              const pl_pattern_row *kind, const pl_joint_call *call, vf lagging,
-                              vf spared, const bool pull, const bool first, body *a, body *b)
+// What a row behind the block lacks, for a mass of 1, and what of its impulse gives way.
+typedef struct demand {
+    vf lack;      // [m/s] or [rad/s]
+    vf give, lag; // [-], [N s]
+    vf low;       // [N s] least impulse
+} demand;
+
+WIDE_INLINE void demand_of(demand *d, const parts *at, const pl_joint_pattern *p, int i, vf driven,
+                           const pl_joint_call *call, const bool pull, const bool first,
+                           const body *a, const body *b)
 {
+    const row *r = &at->rows[i];
+    const single *s = &at->singles[i - p->block];
+    const pl_pattern_row *kind = &p->row[i];
     const vf zero = splat(0), one = splat(1);
     vf velocity = one, error_rate = zero, give = zero, speed = zero, before = zero, lag = zero;
     vf low = -s->most;
@@ -39,13 +49,13 @@ WIDE_INLINE void solve_single(row *r, const source *from, const single *s, vf dr
         before = s->spring.before[!pull] * s->before;
         lag = s->lag;
         if (pull) {
-            lag = lagging * r->start;
+            lag = at->c->lag * r->start;
         }
     } else if (pull) {
         velocity = splat((near_real)call->rigid.velocity);
         error_rate = splat((near_real)call->rigid.error);
         give = splat((near_real)call->rigid.impulse);
-        lag = spared * r->start;
+        lag = at->c->lag * at->c->spared * r->start;
     }
     if (kind->type == PL_ROW_LEAST) {
         vm apart = r->error > zero; // may close the gap
@@ -57,14 +67,85 @@ WIDE_INLINE void solve_single(row *r, const source *from, const single *s, vf dr
     }
     vf v = rate(r, a, b);
     if (pull && !first && !kind->spring && kind->form == PL_FORM_LENGTH) {
-        v += bow(r, from, a, b, splat((near_real)call->h));
+        v += bow(r, &at->sources[i], a, b, splat((near_real)call->h));
     }
-    vf lack = velocity * (v - speed) - before + error_rate * r->error;
-    vf total = r->impulse - s->mass * lack - give * (r->impulse - lag);
-    total = vclamp(total, low, s->most);
+    d->lack = velocity * (v - speed) - before + error_rate * r->error;
+    d->give = give, d->lag = lag, d->low = low;
+}
+
+// Gives a row of this mass the impulse that meets the demand; answers by how much that changes.
+WIDE_INLINE vf meet(row *r, const demand *d, vf mass, vf most)
+{
+    vf total = r->impulse - mass * d->lack - d->give * (r->impulse - d->lag);
+    total = vclamp(total, d->low, most);
     vf change = total - r->impulse;
     r->impulse = total;
+    return change;
+}
+
+WIDE_INLINE void solve_single(const parts *at, const pl_joint_pattern *p, int i,
+                              const pl_joint_call *call, const bool pull, const bool first, body *a,
+                              body *b)
+{
+    row *r = &at->rows[i];
+    const single *s = &at->singles[i - p->block];
+    vf driven = splat(0);
+    if (p->row[i].type == PL_ROW_DRIVE) {
+        driven = drive_speed(at, p, i, splat((near_real)(1 / call->h)));
+    }
+    demand d;
+    demand_of(&d, at, p, i, driven, call, pull, first, a, b);
+    const vf change = meet(r, &d, s->mass, s->most);
     push(a, b, r->nx * change, r->ny * change, r->wa * change, r->wb * change);
+}
+
+// What a block of n rows answers to an impulse of 1 along row r, as in one.c; and the mass of all.
+WIDE_INLINE vf answer_of(vf answer[3], const parts *at, const int n, const row *r, vf mass,
+                         const body *a, const body *b)
+{
+    static const int at_row[3][3] = { { 0, 1, 3 }, { 1, 2, 4 }, { 3, 4, 5 } }; // in bundle.inverse
+    const vf own = coupling(r, r, a, b);
+    vf coupled[3], whole = own;
+    for (int k = 0; k < n; ++k) {
+        coupled[k] = coupling(&at->rows[k], r, a, b);
+    }
+    for (int k = 0; k < n; ++k) {
+        answer[k] = splat(0);
+        for (int m = 0; m < n; ++m) {
+            answer[k] -= at->c->inverse[at_row[k][m]] * coupled[m];
+        }
+        whole += coupled[k] * answer[k];
+    }
+    const vm answered = whole > splat(PL_PIVOT) * own;
+    for (int k = 0; k < n; ++k) {
+        answer[k] = sel(answered, answer[k], splat(0));
+    }
+    return sel(answered, splat(1) / sel(answered, whole, splat(1)), mass);
+}
+
+// A limit, with what a rigid block of n rows answers to it: an angle is stopped about the hinge, not about the centre.
+WIDE_PART void solve_limit(const parts *at, const pl_joint_pattern *p, int i, const int n,
+                           const pl_joint_call *call, const bool pull, const bool first, body *a,
+                           body *b)
+{
+    row *r = &at->rows[i];
+    const single *s = &at->singles[i - p->block];
+    demand d;
+    demand_of(&d, at, p, i, splat(0), call, pull, first, a, b);
+    if (!any((r->impulse > splat(0)) | (d.lack < splat(0)))) {
+        return; // nobody is at it
+    }
+    vf answer[3];
+    const vf mass = answer_of(answer, at, n, r, s->mass, a, b);
+    const vf change = meet(r, &d, mass, s->most);
+    vf x = r->nx * change, y = r->ny * change, wa = r->wa * change, wb = r->wb * change;
+    for (int k = 0; k < n; ++k) {
+        row *of = &at->rows[k];
+        const vf due = answer[k] * change;
+        of->impulse += due;
+        x += of->nx * due, y += of->ny * due, wa += of->wa * due, wb += of->wb * due;
+    }
+    push(a, b, x, y, wa, wb);
 }
 
 // A point of two bodies that move, apart by more than `most` and than its arms sweep over in a substep, is drawn together no
@@ -170,17 +251,21 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
     push(a, b, x, y, wa, wb);
 }
 
+// A block that yields or has a bound does not answer.
+WIDE_INLINE bool is_answered(const pl_joint_pattern *p, int i)
+{
+    return p->row[i].type == PL_ROW_LEAST && p->block > 0 && p->row[0].type == PL_ROW_EQUAL &&
+           !p->tempered;
+}
+
 // Motors and springs first: what must hold has the last word.
 WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
                             const bool pull, const bool first, body *a, body *b)
 {
     for (int i = p->count - 1; i >= p->block; --i) {
-        vf driven = splat(0);
-        if (p->row[i].type == PL_ROW_DRIVE) {
-            driven = drive_speed(at, p, i, splat((near_real)(1 / call->h)));
+        if (!is_answered(p, i)) {
+            solve_single(at, p, i, call, pull, first, a, b);
         }
-        solve_single(&at->rows[i], &at->sources[i], &at->singles[i - p->block], driven, &p->row[i],
-                     call, at->c->lag, at->c->lag * at->c->spared, pull, first, a, b);
     }
     switch (p->block) {
     case 1:
@@ -194,6 +279,11 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
         break;
     default:
         break;
+    }
+    for (int i = p->count - 1; i >= p->block; --i) {
+        if (is_answered(p, i)) {
+            solve_limit(at, p, i, p->block, call, pull, first, a, b);
+        }
     }
 }
 
@@ -394,7 +484,7 @@ SWEEP_PART void sweep_limited(const pl_joint_call *call, uint32_t k, const bool 
     sweep_bundle(call, k, &limited_pattern, pull, first);
 }
 
-SWEEP_PART void sweep_any(const pl_joint_call *call, uint32_t k, const bool pull, const bool first)
+WIDE_PART void sweep_any(const pl_joint_call *call, uint32_t k, const bool pull, const bool first)
 {
     sweep_bundle(call, k, &call->patterns[call->bundles[k].pattern], pull, first);
 }

@@ -114,6 +114,45 @@ real pl_one_drive_speed(const pl_joint *j, int i)
     return plumb_min(plumb_max(drive->speed, -down), up);
 }
 
+real pl_one_answer(const pl_joint *j, int i, const pl_solver_body *a, const pl_solver_body *b,
+                   real answer[3])
+{
+    const pl_row *r = &j->rows.row[i];
+    const int n = j->rows.block;
+    real coupled[3] = { 0 }, rate = pl_one_coupling(r, r, a, b);
+    for (int k = 0; k < n; ++k) {
+        coupled[k] = pl_one_coupling(&j->rows.row[k], r, a, b);
+    }
+    for (int k = 0; k < n; ++k) {
+        answer[k] = 0;
+        for (int m = 0; m < n; ++m) {
+            answer[k] -= j->inverse[k][m] * coupled[m];
+        }
+        rate += coupled[k] * answer[k];
+    }
+    return rate;
+}
+
+// A block that yields or has a bound does not answer.
+bool pl_one_is_answered(const pl_joint *j, int i)
+{
+    const pl_row *block = &j->rows.row[0];
+    return j->rows.row[i].type == PL_ROW_LEAST && j->rows.block > 0 &&
+           block->type == PL_ROW_EQUAL && block->spring == PL_SPRING_NONE &&
+           !(j->rows.block_most < PL_UNBOUNDED);
+}
+
+// `answer`: of a limit's block; NULL: none.
+static void give_row(pl_joint *j, int i, pl_solver_body *a, pl_solver_body *b, real change,
+                     const real answer[3])
+{
+    pl_one_push(&j->rows.row[i], a, b, change);
+    for (int k = 0; k < j->rows.block && answer != NULL && change != 0; ++k) {
+        pl_one_push(&j->rows.row[k], a, b, answer[k] * change);
+        j->impulse[k] += answer[k] * change;
+    }
+}
+
 void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
                       pl_solver_body *b, pl_joint_sweep sweep, bool first)
 {
@@ -122,6 +161,11 @@ void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_b
         return;
     }
     const pl_row_half *half = &j->half[i];
+    real answer[3], mass = j->mass[i];
+    const real own = mass > 0 ? 1 / mass : 0;
+    const real whole = pl_one_is_answered(j, i) ? pl_one_answer(j, i, a, b, answer) : 0;
+    const bool answered = whole > PL_PIVOT * own;
+    mass = answered ? 1 / whole : mass;
     pl_joint_soft s = soften(c, r, j->mass[i], sweep, j->degree);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
@@ -136,11 +180,11 @@ void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_b
     }
     real old = j->impulse[i];
     real lack = s.velocity * v - s.before * half->before + s.error * r->error;
-    real total = old - j->mass[i] * lack - s.impulse * (old - half->lag);
+    real total = old - mass * lack - s.impulse * (old - half->lag);
     real most = r->most * j->h;
     total = plumb_clamp(total, r->type == PL_ROW_LEAST ? 0 : -most, most);
     j->impulse[i] = total;
-    pl_one_push(r, a, b, total - old);
+    give_row(j, i, a, b, total - old, answered ? answer : NULL);
 }
 
 //---- the block -----------------------------------------------------------------------------------

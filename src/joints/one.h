@@ -42,7 +42,12 @@ void pl_one_note_springs(pl_joint *j, const pl_solver_body *a, const pl_solver_b
 // Behind the motion a limit that bounced wants no more than it has there: its row has turned.
 void pl_one_let_go(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b);
 
-// One row outside the block, the block; `first`: of the sweeps of a substep.
+// What the impulses of a joint's block answer to an impulse of 1 along row i, so that the block stays as it is, and by how much the
+// row's rate changes with both [1/kg].
+real pl_one_answer(const pl_joint *j, int i, const pl_solver_body *a, const pl_solver_body *b,
+                   real answer[3]);
+// One row outside the block, the block; `first`: of the sweeps of a substep. Motors and springs come before the block, what must
+// hold has the last word: limits behind it, with what the block answers to them (pl_one_is_answered).
 void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
                       pl_solver_body *b, pl_joint_sweep sweep, bool first);
 void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
@@ -52,6 +57,8 @@ void pl_one_move(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, real s
 
 // Of a rigid row that pulls. `soft` [s]: the substep that it is as stiff for (pl_soft_substep).
 pl_joint_soft pl_joint_rigid(real h, real soft);
+// Whether row i is a limit that a block answers to.
+bool pl_one_is_answered(const pl_joint *j, int i);
 // Whether row i is a motor, and the two rows before it are the limits of its value.
 bool pl_one_is_limited(const pl_joint *j, int i);
 // What a motor may drive at: it comes to a stop where a limit of the same value begins. Else limit and motor would push

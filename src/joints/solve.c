@@ -329,11 +329,17 @@ static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
         if (swept != NULL && !swept[i]) {
             continue;
         }
-        // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
-            pl_one_solve_row(c, j, k, one.a, one.b, sweep, first);
+            if (!pl_one_is_answered(j, k)) {
+                pl_one_solve_row(c, j, k, one.a, one.b, sweep, first);
+            }
         }
         pl_one_solve_block(c, j, one.a, one.b, sweep, first);
+        for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
+            if (pl_one_is_answered(j, k)) {
+                pl_one_solve_row(c, j, k, one.a, one.b, sweep, first);
+            }
+        }
     }
 }
 

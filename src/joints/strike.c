@@ -53,21 +53,14 @@ static hit hit_of(const pl_lone *l, int row)
     const pl_rows *rows = &l->joint->rows;
     const pl_row *r = &rows->row[row];
     const int n = rows->block;
-    hit out = { .rate = (double)pl_one_coupling(r, r, l->a, l->b) };
-    double coupled[3] = { 0 };
+    real answer[3];
+    hit out = { .rate = (double)pl_one_answer(l->joint, row, l->a, l->b, answer) };
     slope_of(r, out.row);
     for (int i = 0; i < n; ++i) {
-        coupled[i] = (double)pl_one_coupling(&rows->row[i], r, l->a, l->b);
-    }
-    for (int i = 0; i < n; ++i) {
-        double slope[6], answer = 0;
-        for (int k = 0; k < n; ++k) {
-            answer -= (double)l->joint->inverse[i][k] * coupled[k];
-        }
-        out.rate += coupled[i] * answer;
+        double slope[6];
         slope_of(&rows->row[i], slope);
         for (int k = 0; k < 6; ++k) {
-            out.row[k] += answer * slope[k];
+            out.row[k] += (double)answer[i] * slope[k];
         }
     }
     return out;

@@ -1,4 +1,4 @@
-// test_limits.c - restitution of limits: sliders, hinges and ropes that bounce, against closed forms.
+// test_limits.c - limits: sliders, hinges and ropes that bounce, against closed forms; and what is met without restitution stops.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,6 +9,7 @@
 
 #include "harness/near.h"
 #include "harness/sim.h"
+#include "harness/trials.h"
 
 #define DT (1 / 60.0)
 
@@ -226,9 +227,83 @@ static void thresholds_and_blows(void **state)
     }
 }
 
+//---- without restitution --------------------------------------------------------------------------
+
+typedef struct stop {
+    plumb_body body;
+    plumb_joint joint;
+    double bound, rate; // of the value; what it comes at
+} stop;
+
+// A body on a hinge or slider of the world that is beside its centre, at random, flies towards a limit that it meets within 0.2 to
+// 0.8 s. What breaks by impulse is solved alone, the others in lanes.
+static stop throw_at_limit(plumb_world *w, uint32_t number)
+{
+    uint32_t seed = 104729 * number + 11;
+    const double x = 20.0 * (number % 8), y = 20.0 * (number / 8);
+    const double lean = sim_uniform(&seed, -3, 3), arm = sim_uniform(&seed, -2, 2);
+    const double rate = sim_uniform(&seed, 0.2, 3), way = rate * sim_uniform(&seed, 0.2, 0.8);
+    const double sign = number % 2 ? -1 : 1;
+    const bool hinge = sim_random(&seed) % 2, alone = sim_random(&seed) % 2;
+    stop out = { .bound = sign * way, .rate = sign * rate };
+    out.body = mass(w, x, y, sim_uniform(&seed, 0.1, 10), sim_uniform(&seed, 0.05, 2));
+    plumb_body_set_angle(w, out.body, (plumb_real)sim_uniform(&seed, -3, 3));
+    const double ax = cos(lean), ay = sin(lean);
+    plumb_joint_desc d = { .kind = hinge ? PLUMB_REVOLUTE : PLUMB_PRISMATIC,
+                           .body_b = out.body,
+                           .anchor = sim_vec(x - arm * ay, y + arm * ax),
+                           .enable_limit = true,
+                           .lower = (plumb_real)(sign > 0 ? -0.5 : out.bound),
+                           .upper = (plumb_real)(sign > 0 ? out.bound : 0.5),
+                           .break_impulse = alone ? 10000 : 0 };
+    if (hinge) {
+        // v = w x (from the anchor to the centre)
+        sim_launch(w, out.body, -out.rate * -arm * ax, out.rate * arm * ay, out.rate);
+    } else {
+        d.axis = sim_vec(ax, ay);
+        sim_launch(w, out.body, out.rate * ax, out.rate * ay, 0);
+    }
+    out.joint = sim_joint(w, d);
+    return out;
+}
+
+// After a second it stands at the limit, but for what it comes by in a substep: a hinge far beside the centre gives way to the blow,
+// and comes back.
+static void what_meets_a_limit_stops(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; ++k) {
+        const plumb_solver solver = k % 2 ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT;
+        const int rate = k < 2 ? 60 : 240;
+        plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solver, .no_sleep = true });
+        plumb_world_set_gravity(w, sim_vec(0, 0));
+        const trials t = trials_from(0, 48);
+        const uint32_t count = t.end - t.first < 48 ? t.end - t.first : 48;
+        stop all[48];
+        for (uint32_t i = 0; i < count; ++i) {
+            all[i] = throw_at_limit(w, t.first + i);
+            assert_near(plumb_joint_rate(w, all[i].joint), all[i].rate, 1e-4);
+        }
+        sim_run(w, rate, 1.0 / rate);
+        double off = 0, left = 0;
+        for (uint32_t i = 0; i < count; ++i) {
+            const double value = (double)plumb_joint_value(w, all[i].joint);
+            off = fmax(off, fabs(value - all[i].bound) * (solver == PLUMB_SOLVER_SOFT ? 4 : 1) *
+                                rate / fabs(all[i].rate));
+            left = fmax(left, fabs((double)plumb_joint_rate(w, all[i].joint) / all[i].rate));
+        }
+        print_message("%s, %d Hz: %.1g of the speed is left, %.2g substeps off the limit\n",
+                      names[k % 2], rate, left, off);
+        assert_true(left < 2e-3);
+        assert_true(off < 1.5);
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_meets_a_limit_stops),
         cmocka_unit_test(sliders_rise_by_the_square),
         cmocka_unit_test(rods_come_back_from_their_limit),
         cmocka_unit_test(ropes_throw_back),
