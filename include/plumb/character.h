@@ -73,7 +73,8 @@ PLUMB_API plumb_result plumb_character_set(plumb_world *world, plumb_body body,
                                            const plumb_character_desc *desc);
 
 /// Walks at `speed` [m/s] along the ground, uphill and downhill alike, relative to what it stands on;
-/// positive to the right. Holds until changed. In the air it is the sideways velocity in the world.
+/// positive to the right. Holds until changed. In the air it is the sideways velocity, in addition to that of the
+/// ground that it left, until it lands or a wall stops it.
 /// Errors: E_HANDLE, E_NOT_FINITE.
 PLUMB_API plumb_result plumb_character_walk(plumb_world *world, plumb_body body, plumb_real speed);
 /// Moves at `velocity` [m/s] through the air, without gravity, sliding along what it meets: swimming,

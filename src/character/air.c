@@ -180,7 +180,7 @@ double pl_walker_fall(pl_walker *m, double time)
         pull > 0 ? pl_ramp(&rise, -m->max_fall, pull, time) : rise * time - pull * time * time / 2;
     rise -= pull > 0 ? 0 : pull * time;
     double way = pl_walker_steers(c, m->slope_side)
-                     ? pl_ramp(&side, (double)c->walk, m->air_acceleration, time)
+                     ? pl_ramp(&side, (double)c->walk + (double)c->left, m->air_acceleration, time)
                      : side * time;
     way += drift * time * time / 2;
     side += drift * time;
@@ -189,7 +189,9 @@ double pl_walker_fall(pl_walker *m, double time)
     // What carried it in this step has done so for all of it.
     double dx = way * m->rx + way_up * m->ux - m->carried_x * time / m->dt;
     double dy = way * m->ry + way_up * m->uy - m->carried_y * time / m->dt;
-    return slide(m, dx, dy, start, true) * time;
+    const double over = slide(m, dx, dy, start, true) * time;
+    c->left = c->at_wall ? 0 : c->left;
+    return over;
 }
 
 void pl_walker_fly(pl_walker *m, double time)

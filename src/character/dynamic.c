@@ -102,6 +102,7 @@ static void jump(pl_walker *m)
     b->vy[m->row] += (real)(gain * m->uy);
     const double force = gain * (double)b->mass[m->row] / m->dt;
     act_back(m, force * m->ux, force * m->uy);
+    c->left = (real)pl_right(m, (double)c->ground.velocity.x, (double)c->ground.velocity.y);
     c->on_ground = false;
     c->ground = (pl_ground){ 0 };
 }
@@ -122,7 +123,7 @@ static void steer(pl_walker *m, double acceleration)
 {
     const pl_bodies *b = &m->world->bodies;
     double speed = pl_right(m, (double)b->vx[m->row], (double)b->vy[m->row]);
-    double a = clamp(((double)m->c->walk - speed) / m->dt, acceleration);
+    double a = clamp(((double)m->c->walk + (double)m->c->left - speed) / m->dt, acceleration);
     double force = (double)b->mass[m->row] * a;
     act(m, force * m->rx, force * m->ry, false);
 }
@@ -149,10 +150,16 @@ bool pl_character_drive(plumb_world *world, pl_character *c, real dt)
     }
     double acceleration = c->desc.acceleration > 0 ? m.acceleration : DEFAULT_ACCELERATION;
     double in_air = c->desc.air_acceleration > 0 ? m.air_acceleration : acceleration;
+    const plumb_vec2 carried = c->ground.velocity;
+    const bool stood = c->on_ground;
     look_for_ground(&m);
+    if (stood && !c->on_ground) {
+        c->left = (real)pl_right(&m, (double)carried.x, (double)carried.y);
+    }
     bool jumps = c->jump > 0 && c->on_ground;
     if (c->flies) {
         c->on_ground = false;
+        c->left = 0;
         c->ground = (pl_ground){ 0 };
         fly(&m, acceleration);
     } else if (jumps) {

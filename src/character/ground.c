@@ -80,6 +80,7 @@ void pl_walker_leave_ground(pl_walker *m)
     if (row != PL_NONE) {
         pl_walker_rouse(m->world, row); // it bears him no more
     }
+    c->left = (real)pl_right(m, (double)c->ground.velocity.x, (double)c->ground.velocity.y);
     c->velocity.x = (real)((double)c->ground.velocity.x + (double)c->speed * m->ny);
     c->velocity.y = (real)((double)c->ground.velocity.y - (double)c->speed * m->nx);
     c->on_ground = c->climbs = false;

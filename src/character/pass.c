@@ -211,7 +211,7 @@ static bool move_one(plumb_world *world, pl_character *c, real dt)
         if (c->on_ground) {
             pl_walker_leave_ground(&m);
         }
-        c->jump = 0;
+        c->jump = c->left = 0;
         c->thrown = false;
         pl_walker_fly(&m, m.dt);
     } else {

@@ -270,7 +270,7 @@
 
 // The same of a character.
 #define PL_STATE_CHARACTER(X)                                                                      \
-    X(body) X(flies) X(walk) X(fly) X(jump) X(thrown) X(velocity) X(speed) X(rise) X(step_top)     \
+    X(body) X(flies) X(walk) X(fly) X(jump) X(thrown) X(velocity) X(speed) X(left) X(rise) X(step_top) \
     X(on_ground) X(climbs) X(on_slope) X(at_wall) X(at_ceiling) X(crushed) X(slope_side)           \
     X(air_time) X(ground.body) X(ground.shape) X(ground.local) X(ground.normal) X(passing_count)   \
     X(pushed) X(push) X(push_speed) X(trod) X(weight) X(weight_speed)                              \

@@ -107,14 +107,16 @@ static void turning_platforms(void **state)
     }
 }
 
-// It takes the platform's velocity along when it jumps off, and walks relative to it.
+// It takes the platform's velocity along when it jumps off, and walks relative to it, with control in the air or without.
 static void off_a_platform(void **state)
 {
     (void)state;
-    for (int k = 0; k < STEP_RATES; ++k) {
+    for (int i = 0; i < 2 * STEP_RATES; ++i) {
+        const int k = i / 2;
         plumb_world *world = make_world();
         plumb_body lift = add_box(world, PLUMB_KINEMATIC, V(0, -0.2), V(4, 0.2));
-        plumb_body hero = add_hero(world, 0, 0, &(plumb_character_desc){ .no_air_control = true });
+        plumb_body hero =
+            add_hero(world, 0, 0, &(plumb_character_desc){ .no_air_control = i % 2 == 1 });
         run(world, step_rates[k], 0.1);
         plumb_body_set_velocity(world, lift, V(2, 1));
         run(world, step_rates[k], 0.5);
@@ -126,6 +128,35 @@ static void off_a_platform(void **state)
         run(world, step_rates[k], 0.5);
         assert_near(x_of(world, hero) - x, 1.5, ROUNDED(1e-4));
         assert_near(y_of(world, hero) - y, 6 * 0.5 - 9.81 / 8, ROUNDED(1e-4));
+        plumb_world_destroy(world);
+    }
+}
+
+// Whoever walks off an edge keeps it as well; a wall stops it for good, and the next ground is another one.
+static void what_it_left_is_kept_until_it_lands(void **state)
+{
+    (void)state;
+    for (int k = 0; k < STEP_RATES; ++k) {
+        plumb_world *world = make_world();
+        plumb_body lift = add_box(world, PLUMB_KINEMATIC, V(0, 4.8), V(1, 0.2));
+        add_box(world, PLUMB_STATIC, V(0, -0.2), V(40, 0.2));
+        add_box(world, PLUMB_STATIC, V(8, 5), V(1, 5));
+        plumb_body hero = add_hero(world, 0, 5, NULL);
+        run(world, step_rates[k], 0.1);
+        plumb_body_set_velocity(world, lift, V(2, 0));
+        plumb_character_walk(world, hero, 1);
+        run(world, step_rates[k], 1.5); // off it after about 1 s, on its way for another
+        assert_false(state_of(world, hero).on_ground);
+        assert_near(x_of(world, hero), 4.5, 0.1);
+        run(world, step_rates[k], 1);
+        assert_true(state_of(world, hero).on_ground);
+        // It jumps from ground that stands: as it walks.
+        plumb_character_walk(world, hero, -1);
+        run(world, step_rates[k], 0.1);
+        assert_true(plumb_character_jump(world, hero, 4));
+        const double from = x_of(world, hero);
+        run(world, step_rates[k], 0.5);
+        assert_near(x_of(world, hero), from - 0.5, 1e-3);
         plumb_world_destroy(world);
     }
 }
@@ -300,6 +331,7 @@ int main(void)
         cmocka_unit_test(belts),
         cmocka_unit_test(turning_platforms),
         cmocka_unit_test(off_a_platform),
+        cmocka_unit_test(what_it_left_is_kept_until_it_lands),
         cmocka_unit_test(one_way_from_below),
         cmocka_unit_test(one_way_carries_and_drops),
         cmocka_unit_test(one_way_from_the_side),

@@ -144,6 +144,14 @@ static void platforms(void **state)
         plumb_vec2 at = plumb_body_local_point(world, lift, plumb_body_position(world, hero));
         assert_near(at.x, 0, 0.12); // it follows one step behind
         assert_near(at.y, 0.2 + STANDS, 0.02);
+        // In the air it goes on with what the platform had.
+        plumb_body_set_velocity(world, lift, V(2, 0));
+        run(world, rates[k], 0.5);
+        const double on_it = x_of(world, hero) - x_of(world, lift);
+        assert_true(plumb_character_jump(world, hero, 4));
+        run(world, rates[k], 0.5);
+        assert_false(state_of(world, hero).on_ground);
+        assert_near(x_of(world, hero) - x_of(world, lift), on_it, 0.05);
         plumb_world_destroy(world);
     }
 }

@@ -37,6 +37,7 @@ typedef struct pl_character {
     // What it does.
     plumb_vec2 velocity; // [m/s] in the world
     real speed;          // [m/s] along the ground, relative to it
+    real left;           // [m/s] to the right: of the ground that it left last, which it keeps in the air
     double rise;         // [m] upwards since it last stood on ground that is not too steep
     double step_top;     // [m] likewise: where the step that it climbs has its top
     bool on_ground, climbs, on_slope, at_wall, at_ceiling, crushed;
