@@ -231,6 +231,35 @@ static void csv_can_be_read(void **state)
     assert_int_equal(own, 2);
 }
 
+// Places of settings with longer steps are those of the same moments: what flies freely is everywhere right, in runs whose steps are not
+// a multiple of the moments that are compared, too.
+static void places_are_those_of_the_same_moment(void **state)
+{
+    (void)state;
+    static const char *const durations[] = { "1", "4", "3.9" };
+    for (int i = 0; i < 3; i++) {
+        char text[128];
+        snprintf(text, sizeof text,
+                 "scene { duration = %s }\nbody { circle { 0.1 }, velocity = {3, 4} }\n",
+                 durations[i]);
+        write_text("flies.lua", text);
+        expect_code("\"$P\" cost flies.lua --solvers soft,pgs --precisions double --repeat 1 "
+                    "--budget 0.01 --csv",
+                    0);
+        int lines = 0, longer = 0;
+        for (const char *at = strchr(out, '\n') + 1; *at != '\0'; lines++) {
+            double values[23];
+            (void)field(&at);
+            for (int k = 0; k < 23; k++) {
+                values[k] = field(&at);
+            }
+            longer += values[1] > 0.02;
+            assert_true(values[7] >= 0 && values[7] < 1e-9);
+        }
+        assert_true(lines > 5 && longer > 0);
+    }
+}
+
 // What a scene of the recommendation test is, and the truth of it.
 static double truth_of(int kind, double t)
 {
@@ -327,6 +356,7 @@ int main(void)
         cmocka_unit_test(lists_are_measured_and_judged),
         cmocka_unit_test(every_ladder_ends),
         cmocka_unit_test(motion_is_compared_as_long_as_it_can_be),
+        cmocka_unit_test(places_are_those_of_the_same_moment),
         cmocka_unit_test(what_diverges_is_no_truth),
         cmocka_unit_test(charts_are_drawn),
         cmocka_unit_test(what_takes_too_long_is_given_up),

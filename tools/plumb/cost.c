@@ -13,6 +13,8 @@
 
 /// Moments of a run at which places are compared.
 enum { COMPARED_MOMENTS = 200 };
+/// [-] of a step: what ends within it of a moment is there.
+static const double SAME_MOMENT = 1e-3;
 /// [s] runs shorter than that are timed several times in a row: the clock's own noise is some microseconds.
 static const double SHORT_RUN = 2e-3;
 enum { SHORT_RUNS = 5 };
@@ -54,10 +56,22 @@ int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run)
     return open_for(plan, set, false, run);
 }
 
+/// Steps of the scene's own from one moment to the next: both are there in a run of finer steps.
+static int stride_of(const cost_plan *plan)
+{
+    const int steps = (int)ceil(plan->time / plan->dt - 1e-6);
+    return (steps + COMPARED_MOMENTS - 1) / COMPARED_MOMENTS;
+}
+
 int cost_moments(const cost_plan *plan)
 {
-    double steps = ceil(plan->time / plan->dt - 1e-6);
-    return steps < COMPARED_MOMENTS ? (int)steps : COMPARED_MOMENTS;
+    const int steps = (int)ceil(plan->time / plan->dt - 1e-6);
+    return steps / stride_of(plan);
+}
+
+double cost_moment(const cost_plan *plan, int moment)
+{
+    return (moment + 1) * stride_of(plan) * plan->dt;
 }
 
 /// What is taken down on the way.
@@ -115,14 +129,21 @@ static int look(watch *w, scene_run *run, double elapsed)
             fmax(w->row->penetration, run->engine->stats(run->stage).max_penetration);
         code = look_at_forms(w, run, elapsed);
     }
-    double next = w->plan->time * (w->moment + 1) / cost_moments(w->plan);
-    if (code != CLI_OK || elapsed < next - run->info.dt / 2) {
-        return code;
+    const double slack = SAME_MOMENT * run->info.dt;
+    bool kept = true;
+    for (; cost_moment(w->plan, w->moment) < elapsed - slack;
+         w->moment++) { // passed over by a long step
+        kept = kept && (w->track == NULL || cost_track_add(w->track, NULL));
     }
-    w->moment++;
-    if (w->track != NULL && !cost_track_add(w->track, run)) {
+    const bool due = code == CLI_OK && cost_moment(w->plan, w->moment) <= elapsed + slack;
+    kept = kept && (!due || w->track == NULL || cost_track_add(w->track, run));
+    w->moment += due ? 1 : 0;
+    if (!kept) {
         cli_message("out of memory");
         return CLI_FAILED;
+    }
+    if (!due) {
+        return code;
     }
     if (elapsed > w->plan->horizon) {
         engine_totals now = run->engine->totals(run->stage);
@@ -240,7 +261,7 @@ static void measure_places(const cost_plan *plan, const cost_track *track, cost_
     for (int q = 0; q < plan->quantity_count; q++) {
         for (int m = 0; m < cost_track_moments(track) && plan->quantities[q].kind == COST_PLACES;
              m++) {
-            double elapsed = plan->time * (m + 1) / cost_moments(plan);
+            double elapsed = cost_moment(plan, m);
             double distance = cost_track_distance(plan->reference, track, m);
             if (elapsed <= plan->horizon + 1e-9 && distance >= 0) {
                 note_error(plan, row, q, elapsed, distance);

@@ -195,17 +195,18 @@ void cost_put_terminal(FILE *script, const char *path, int width, int height);
 typedef struct cost_track cost_track;
 cost_track *cost_track_new(void);
 void cost_track_free(cost_track *track); ///< null is allowed
-/// Appends the moving bodies as they are now. False: out of memory.
+/// Appends the moving bodies as they are now; `run` null: a moment at which nobody looked. False: out of memory.
 bool cost_track_add(cost_track *track, const scene_run *run);
 int cost_track_moments(const cost_track *track);
-/// The largest distance of a body at a moment; -1 when no body is in both. A body that only one of them still has
+/// The largest distance of a body at a moment; -1 when no body is in both, or nobody looked. A body that only one of them still has
 /// cannot be compared.
 double cost_track_distance(const cost_track *a, const cost_track *b, int moment);
 /// [m] the longest way of a body from where it was at the first moment.
 double cost_track_way(const cost_track *track);
 
-/// Moments at which tracks are taken, and one of them [s].
+/// How many moments tracks are taken at, and one of them [s]; moment -1 is the start.
 int cost_moments(const cost_plan *plan);
+double cost_moment(const cost_plan *plan, int moment);
 /// Runs a setting, its start moved by `nudge` [m], into a track. CLI_DIVERGED comes without a message.
 int cost_follow(cost_plan *plan, const cost_setting *set, double nudge, unsigned seed,
                 cost_track *track);

@@ -73,8 +73,8 @@ static bool reserve(cost_track *track, size_t count)
 
 bool cost_track_add(cost_track *track, const scene_run *run)
 {
-    const engine_row *rows;
-    int count = run->engine->rows(run->stage, &rows);
+    const engine_row *rows = NULL;
+    int count = run != NULL ? run->engine->rows(run->stage, &rows) : 0;
     if (count < 0 || !reserve(track, (size_t)count)) {
         return false;
     }

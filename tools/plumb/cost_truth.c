@@ -146,7 +146,7 @@ static void find_horizon(cost_plan *plan, const cost_track *track, const cost_tr
     for (int m = 0; m < cost_track_moments(track); m++) {
         double distance = cost_track_distance(track, twin, m);
         if (distance > GROWTH_MOST * nudge) {
-            plan->horizon = plan->time * m / cost_moments(plan);
+            plan->horizon = cost_moment(plan, m - 1);
             break;
         }
         plan->growth = fmax(plan->growth, distance / nudge);
@@ -178,7 +178,7 @@ static void trust(cost_plan *plan, const cost_track *coarse)
 {
     double way = cost_track_way(plan->reference);
     for (int m = 0; m < cost_track_moments(coarse); m++) {
-        double elapsed = plan->time * m / cost_moments(plan);
+        double elapsed = cost_moment(plan, m - 1);
         if (cost_track_distance(plan->reference, coarse, m) > REFERENCE_WANDERS * way &&
             elapsed < plan->horizon) {
             plan->horizon = elapsed;
@@ -215,7 +215,7 @@ static int refer(cost_plan *plan, const cost_setting *finest, double nudge, doub
         places.till = plan->horizon;
         places.extent = fmax(cost_track_way(plan->reference), 1e-3 * size);
         for (int m = 0; m < cost_track_moments(coarse); m++) {
-            bool comparable = plan->time * (m + 1) / cost_moments(plan) <= plan->horizon + 1e-9;
+            bool comparable = cost_moment(plan, m) <= plan->horizon + 1e-9;
             double distance = cost_track_distance(plan->reference, coarse, m);
             places.floor = comparable ? fmax(places.floor, distance) : places.floor;
         }
