@@ -6,7 +6,7 @@
 ///     const plumb_draw_calls calls = { .line = line, .context = window };
 ///     plumb_draw(world, &calls, &(plumb_draw_desc){ .view = camera_box, .pixel = metres_a_pixel });
 ///
-/// tools/examples/show.c is a window of SDL2 that does so. Points are in the world [m]; what turns them into pixels
+/// tools/examples/sdl2/show.c is a window of SDL2 that does so. Points are in the world [m]; what turns them into pixels
 /// is the caller's. Nothing of the world changes.
 #ifndef PLUMB_DRAW_H
 #define PLUMB_DRAW_H
@@ -87,9 +87,9 @@ typedef struct plumb_draw_desc {
     plumb_real force_scale;     ///< [m/N] >= 0 length of forces; default 0.02
     plumb_real velocity_scale;  ///< [s] >= 0 length of velocities; default 0.1
     const plumb_color *palette; ///< PLUMB_PAINT_COUNT colours; default: plumb_draw_palette
-    /// of this world: bodies are where it shows them; default: where they are
-    /// Colour of a shape instead of `by_state`. Null: that one.
+    /// Of this world: bodies are where it shows them; default: where they are.
     const plumb_loop *loop;
+    /// Colour of a shape instead of `by_state`. Null: that one.
     plumb_color (*color)(void *context, plumb_shape shape, plumb_color by_state);
     /// Name of a body, null for none. Null: no names.
     const char *(*name)(void *context, plumb_body body);

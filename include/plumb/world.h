@@ -183,7 +183,7 @@ PLUMB_API plumb_result plumb_world_set_user_data(plumb_world *world, void *user_
 typedef struct plumb_error {
     plumb_result code;
     const char *function; ///< name of the public function
-    const char *message;  ///< one sentence that names the field and the value; valid until the next error
+    const char *message;  ///< function, field and value in one sentence; valid until the next error
 } plumb_error;
 
 /// The last refused call. Never null members. Successful calls leave it as it is.

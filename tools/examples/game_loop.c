@@ -53,7 +53,7 @@ static bool game_start(game *g)
     // Every call answers; the last refused one is kept with a message, so one look is enough here.
     plumb_error error = plumb_world_error(g->world);
     if (error.code != PLUMB_OK) {
-        fprintf(stderr, "%s: %s\n", error.function, error.message);
+        fprintf(stderr, "%s\n", error.message);
     }
     return error.code == PLUMB_OK;
 }
