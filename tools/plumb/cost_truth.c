@@ -28,7 +28,7 @@ static int out_of_memory(void)
 static double size_of(const scene_run *run)
 {
     engine_box moving = { 0 }, fixed = { 0 };
-    run->engine->bounds(run->stage, NULL, &moving, &fixed);
+    run->engine->bounds(run->stage, INFINITY, &moving, &fixed);
     double size = hypot(moving.max_x - moving.min_x, moving.max_y - moving.min_y);
     return moving.max_x >= moving.min_x && isfinite(size) ? fmax(size, 1e-3) : 1;
 }

@@ -319,10 +319,9 @@ typedef struct engine_api {
     /// All bodies in the order in which they were made; of a recording by handle, which is the same as
     /// long as none is used again. -1: out of memory.
     int (*rows)(engine_stage *stage, const engine_row **rows);
-    /// Boxes around the bodies that move and around those that do not. Of those that move, who has left `home` (null:
-    /// the plane) does not count, as long as a third has stayed.
-    void (*bounds)(const engine_stage *stage, const engine_box *home, engine_box *moving,
-                   engine_box *fixed);
+    /// Boxes around the bodies that move and around those that do not. Of those that move, who is farther than `reach` [m] and
+    /// its size from where most are does not count.
+    void (*bounds)(const engine_stage *stage, double reach, engine_box *moving, engine_box *fixed);
     /// Adds bodies and overlays (RENDER_SHOW_* bits, ENGINE_SHOW_NAMES) to the frame. CLI_FAILED:
     /// out of memory.
     int (*draw)(engine_stage *stage, struct render_frame *frame, unsigned show);

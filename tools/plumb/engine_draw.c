@@ -7,7 +7,6 @@
 /// Cost: O(shapes), for overlays O(contacts).
 #include "engine_session.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -549,69 +548,4 @@ int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show
         good = add_boxes(stage, frame);
     }
     return good && render_frame_status(frame) != RENDER_E_MEMORY ? CLI_OK : CLI_FAILED;
-}
-
-static void add_to_box(engine_box *box, plumb_aabb b)
-{
-    box->min_x = fmin(box->min_x, (double)b.min.x);
-    box->min_y = fmin(box->min_y, (double)b.min.y);
-    box->max_x = fmax(box->max_x, (double)b.max.x);
-    box->max_y = fmax(box->max_y, (double)b.max.y);
-}
-
-static bool is_middle_in(const engine_box *box, plumb_aabb b)
-{
-    double x = ((double)b.min.x + (double)b.max.x) / 2, y = ((double)b.min.y + (double)b.max.y) / 2;
-    return x >= box->min_x && x <= box->max_x && y >= box->min_y && y <= box->max_y;
-}
-
-void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_box *moving,
-                     engine_box *fixed)
-{
-    const engine_box empty = { DBL_MAX, DBL_MAX, -DBL_MAX, -DBL_MAX };
-    int count = pl_stage_body_count(stage), movers = 0, stayed = 0;
-    engine_box near_home = empty;
-
-    *moving = *fixed = empty;
-    for (int i = 0; i < count; i++) {
-        scene_body body = pl_stage_body(stage, i);
-        plumb_aabb b = plumb_body_aabb(stage->world, body.entity);
-        bool is_static = plumb_body_get_type(stage->world, body.entity) == PLUMB_STATIC;
-        if (body.hidden || !(b.min.x <= b.max.x)) {
-            continue;
-        }
-        add_to_box(is_static ? fixed : moving, b);
-        if (!is_static && home != NULL) {
-            movers++;
-            if (is_middle_in(home, b)) {
-                add_to_box(&near_home, b);
-                stayed++;
-            }
-        }
-    }
-    plumb_softbody soft[64];
-    const int soft_count = plumb_world_softbodies(stage->world, soft, 64);
-    for (int i = 0; i < soft_count && i < 64; i++) {
-        const plumb_aabb b = pl_stage_softbody_box(stage, soft[i]);
-        add_to_box(moving, b);
-        movers++;
-        if (home != NULL && is_middle_in(home, b)) {
-            add_to_box(&near_home, b);
-            stayed++;
-        }
-    }
-    if (stayed > 0 && 3 * stayed >= movers) {
-        *moving = near_home;
-    }
-    // Of a world that wraps around all is worth seeing, and nothing twice.
-    plumb_world_desc world = plumb_world_settings(stage->world);
-    double x = (double)world.wrap_x / 2, y = (double)world.wrap_y / 2;
-    if (x > 0) {
-        moving->min_x = fixed->min_x = -x;
-        moving->max_x = fixed->max_x = x;
-    }
-    if (y > 0) {
-        moving->min_y = fixed->min_y = -y;
-        moving->max_y = fixed->max_y = y;
-    }
 }

@@ -84,7 +84,7 @@ engine_stats pl_stage_stats(const engine_stage *stage);
 engine_accuracy pl_stage_accuracy(const engine_stage *stage);
 const char *pl_stage_text(const engine_stage *stage);
 int pl_stage_rows(engine_stage *stage, const engine_row **rows);
-void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_box *moving,
+void pl_stage_bounds(const engine_stage *stage, double reach, engine_box *moving,
                      engine_box *fixed);
 int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show);
 int pl_stage_draw_flow(engine_stage *stage, struct render_frame *frame, const engine_box *view);

@@ -303,7 +303,7 @@ static int shoot_picture(film *f, double time)
     // On the way only the trail is to be seen, and the state at its end.
     int code = source->go(source, first, &bar);
     if (code == CLI_OK) {
-        f->view.start = f->view.seen = (engine_box){ 1, 1, -1, -1 };
+        view_forget(&f->view);
         view_feed(&f->view, &source->seen);
         if (!trail_record(&f->trails, &source->seen)) {
             cli_message("out of memory");

@@ -2,7 +2,7 @@
 ///
 /// Reads positions and boxes of what is drawn. What does not move is shown as far as it is near what
 /// does: a ground of a kilometre must not make a stack of boxes a dot. What flies away or falls
-/// off is let go once it is a picture's size away from where all began, as long as a third stays.
+/// off is let go once it is a picture's size away from the others (engine_bounds.c).
 #include "view.h"
 
 #include "scene_args.h"
@@ -12,10 +12,12 @@
 
 /// [-] share of the picture left free on each side.
 static const double MARGIN = 0.1;
-/// [-] how far, in sizes of the first state, things may stray and still be fitted.
+/// [-] how far, in sizes of the first state, things may stray from the others and still be fitted.
 static const double STRAY = 0.75;
-/// [-] how much of the fixed surroundings is shown around what moves, in sizes of that.
-static const double AROUND = 0.35;
+/// [-] how much larger than the first state a picture becomes at most.
+static const double LARGEST = 40;
+/// [-] how much of the fixed surroundings is shown around what moves, in sizes of that; and above and below where none is so near.
+static const double AROUND = 0.35, AROUND_FAR = 8;
 
 static bool is_empty(engine_box b)
 {
@@ -45,14 +47,20 @@ static engine_box grow(engine_box b, double by)
 }
 
 /// What is worth seeing of a state: what moves, and the surroundings near it.
-static engine_box interest(const engine_scenery *of, const engine_box *home)
+static engine_box interest(const engine_scenery *of, double reach)
 {
     engine_box moving, fixed;
-    of->engine->bounds(of->stage, home, &moving, &fixed);
+    of->engine->bounds(of->stage, reach, &moving, &fixed);
     if (is_empty(moving)) {
         return fixed;
     }
     engine_box near_by = cut(fixed, grow(moving, AROUND * size_of(moving)));
+    if (is_empty(near_by)) { // in the air: with what it may fall on
+        engine_box tall = grow(moving, AROUND * size_of(moving));
+        tall.min_y = moving.min_y - AROUND_FAR * size_of(moving);
+        tall.max_y = moving.max_y + AROUND_FAR * size_of(moving);
+        near_by = cut(fixed, tall);
+    }
     return is_empty(near_by) ? moving : join(moving, near_by);
 }
 
@@ -76,8 +84,8 @@ int view_begin(view *v, const view_wish *wish, const engine_scenery *of)
     *v = (view){ .wish = *wish, .y_down = of->info.y_down, .hint = of->info.camera };
     const char *follow = wish->follow != NULL ? wish->follow : v->hint.follow;
     snprintf(v->follow, sizeof v->follow, "%s", follow);
-    v->start = v->seen = interest(of, NULL);
-    v->home = grow(v->start, STRAY * size_of(v->start));
+    v->seen = interest(of, INFINITY);
+    v->size = size_of(v->seen);
     if (v->follow[0] == '\0') {
         return CLI_OK;
     }
@@ -90,16 +98,18 @@ bool view_needs_run(const view *v)
     return v->follow[0] == '\0' && !v->hint.has_view && !v->hint.has_fit;
 }
 
+void view_forget(view *v)
+{
+    v->seen = (engine_box){ 1, 1, -1, -1 };
+}
+
 void view_feed(view *v, const engine_scenery *of)
 {
-    engine_box now = interest(of, &v->home);
-    if (is_empty(v->start)) {
-        v->start = v->seen = now;
-        return;
+    const engine_box now = interest(of, STRAY * v->size);
+    const engine_box all = is_empty(v->seen) ? now : join(v->seen, now);
+    if (size_of(all) <= LARGEST * v->size || is_empty(v->seen)) {
+        v->seen = all;
     }
-    engine_box limit = grow(v->start, STRAY * size_of(v->start));
-    now = cut(now, limit);
-    v->seen = is_empty(now) ? v->seen : join(v->seen, now);
 }
 
 /// The fitted camera, before following and zoom.

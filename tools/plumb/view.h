@@ -18,9 +18,8 @@ typedef struct view {
     bool y_down;
     engine_camera hint;
     char follow[256]; ///< "" = none
-    engine_box home;  ///< who leaves it has fallen off, or flown away
-    engine_box start; ///< of the first state fed: how far things may stray is measured by it
-    engine_box seen;  ///< of all
+    double size;      ///< [m] of the first state: how far things may stray is measured by it
+    engine_box seen;  ///< of all states fed
     bool has_center;  ///< it has been seen; if it vanishes the camera stays
     double x, y;      ///< [m] where it was last
 } view;
@@ -29,6 +28,8 @@ typedef struct view {
 int view_begin(view *v, const view_wish *wish, const engine_scenery *of);
 /// True when the camera depends on states later than the one to be drawn.
 bool view_needs_run(const view *v);
+/// Begins anew with the states that follow.
+void view_forget(view *v);
 /// Sees the state now.
 void view_feed(view *v, const engine_scenery *of);
 /// The camera for the state now.
