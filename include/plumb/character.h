@@ -12,7 +12,8 @@
 /// - kinematic: it goes where it is told, collides and slides along everything, stands still on slopes,
 ///   climbs steps, follows the ground downhill, is carried by what it stands on (exactly, turning
 ///   and belts, see plumb_material_desc.surface_speed, included), is pushed aside by kinematic bodies, never pushed by dynamic ones. Other bodies meet it
-///   as a kinematic body; it pushes dynamic ones with a limited force and weighs on them.
+///   as a kinematic body; it pushes dynamic ones with a limited force and weighs on them. Water, air and laws do not
+///   move it: a game that sees it in water (events of the water's sensor) lets it swim by plumb_character_fly.
 /// - dynamic: a body that cannot turn, driven by forces: everything can push it, its mass counts.
 /// When the body's type is changed, it goes on as the other kind, by those of its settings that are for both.
 /// Its shape is the first of the body's that is no sensor, one convex piece (a capsule, best), as it is turned

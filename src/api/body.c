@@ -184,12 +184,12 @@ void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plu
     pl_target_forget(world, row);
     if (b->first_piece[row] != PL_NONE) {
         pl_rearranged(world);
+        world->sleep.boxes_stale |= b->island[row] != PL_NONE;
+        pl_internal_edges_move_static(world, row); // by the boxes of where it was
         if (b->type[row] == PLUMB_STATIC) {
             world->static_dirty = true;
             lose_boxes(world, row);
         }
-        world->sleep.boxes_stale |= b->island[row] != PL_NONE;
-        pl_internal_edges_move_static(world, row);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "broad/pairs.h"
 #include "world/body_settings.h"
+#include "world/rows.h"
 #include "world/waves_list.h"
 #include "world/wrap.h"
 
@@ -185,11 +186,6 @@ static void note_placed(plumb_world *world, uint32_t piece)
     *flags |= PL_PIECE_PLACED;
 }
 
-static bool has_lost_box(const pl_pieces *pieces, uint32_t piece)
-{
-    return pieces->fat[piece].min_x > pieces->fat[piece].max_x;
-}
-
 // Those that came or were moved (pl_piece_lose_box): the others are where they were.
 void pl_broad_refresh_fixed(plumb_world *world)
 {
@@ -197,7 +193,7 @@ void pl_broad_refresh_fixed(plumb_world *world)
     const bool asleep = world->asleep_count > 0;
     for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
         if (pieces->moving[piece] == PL_NONE && pieces->kind[piece] != PL_PIECE_FREE &&
-            has_lost_box(pieces, piece)) {
+            pl_piece_has_lost_box(pieces, piece)) {
             pl_box box = widened(pl_piece_filed_box(world, piece), PL_SPECULATIVE / 2);
             if ((pieces->flags[piece] & PL_PIECE_WAVES) != 0) {
                 box = widened(box, pl_waves_reach(world, piece));

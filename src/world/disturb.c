@@ -10,6 +10,7 @@
 #include "core/sort.h"
 #include "world/island.h"
 #include "world/rows.h"
+#include "world/stale_edges.h"
 #include "world/softbody_list.h"
 
 static void wake_contacts(plumb_world *world, uint32_t piece)
@@ -138,6 +139,7 @@ void pl_sleep_see_anew(plumb_world *world, uint32_t piece)
         return;
     }
     if (world->bodies.type[row] == PLUMB_STATIC) {
+        pl_internal_edges_leave(world, piece);
         pl_piece_lose_box(world, piece);
         world->static_dirty = true;
     }

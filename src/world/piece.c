@@ -91,6 +91,11 @@ void pl_piece_lose_box(plumb_world *world, uint32_t slot)
         (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
 }
 
+bool pl_piece_has_lost_box(const pl_pieces *pieces, uint32_t piece)
+{
+    return pieces->fat[piece].min_x > pieces->fat[piece].max_x;
+}
+
 // Files a piece that is in no grid.
 static void file(plumb_world *world, uint32_t slot, uint32_t row)
 {

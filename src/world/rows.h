@@ -98,6 +98,7 @@ void pl_pieces_remove(plumb_world *world, uint32_t first);
 void pl_piece_rest(plumb_world *world, uint32_t piece);
 // Empties its fat box: whatever its place is, it has left the box. Of static pieces only those get one anew.
 void pl_piece_lose_box(plumb_world *world, uint32_t piece);
+bool pl_piece_has_lost_box(const pl_pieces *pieces, uint32_t piece);
 void pl_piece_move(plumb_world *world, uint32_t piece);
 
 //---- mass (mass.c) -------------------------------------------------------------------------------

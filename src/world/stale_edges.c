@@ -4,6 +4,7 @@
 #include "world/stale_edges.h"
 
 #include "world/interval.h"
+#include "world/rows.h"
 
 bool pl_piece_is_static(const plumb_world *world, uint32_t piece)
 {
@@ -44,13 +45,14 @@ void pl_internal_edges_touch_static(plumb_world *world, uint32_t row)
     }
 }
 
-// Without room for the region everything is looked at again.
-static void leave(plumb_world *world, uint32_t piece)
+// Without room for the region everything is looked at again. What has lost its box has left before.
+void pl_internal_edges_leave(plumb_world *world, uint32_t piece)
 {
     pl_internal_edges *s = &world->internal_edges;
     // As it is filed: its body may have another type by now.
     bool is_filed = world->pieces.moving[piece] == PL_NONE;
-    if (!is_filed || !pl_piece_has_internal_edges(&world->pieces, piece)) {
+    if (!is_filed || pl_piece_has_lost_box(&world->pieces, piece) ||
+        !pl_piece_has_internal_edges(&world->pieces, piece)) {
         return; // what has no internal edges has no neighbours that could lose theirs
     }
     mark_dirty(world);
@@ -66,7 +68,7 @@ void pl_internal_edges_move_static(plumb_world *world, uint32_t row)
 {
     uint32_t p = world->bodies.first_piece[row];
     for (; p != PL_NONE && pl_piece_is_static(world, p); p = world->pieces.next_in_body[p]) {
-        leave(world, p);
+        pl_internal_edges_leave(world, p);
         pl_internal_edges_touch(world, p);
     }
 }
@@ -91,7 +93,7 @@ void pl_internal_edges_clear(plumb_world *world, uint32_t piece)
 
 void pl_internal_edges_forget(plumb_world *world, uint32_t piece)
 {
-    leave(world, piece);
+    pl_internal_edges_leave(world, piece);
     if (pl_piece_has_internal_edges(&world->pieces, piece)) {
         mark_dirty(world); // what is noted of its pairs is out of date, even if it was the last one
     }

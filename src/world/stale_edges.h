@@ -12,6 +12,8 @@ void pl_internal_edges_touch_static(plumb_world *world, uint32_t row);
 // The same of every piece of a body that has been moved, if it is static; its boxes still tell where
 // it lay.
 void pl_internal_edges_move_static(plumb_world *world, uint32_t row);
+// What was near a static piece, by the box that it is filed by, is looked at again: before it loses that box.
+void pl_internal_edges_leave(plumb_world *world, uint32_t piece);
 // The piece's slot is about to be freed.
 void pl_internal_edges_forget(plumb_world *world, uint32_t piece);
 bool pl_piece_is_static(const plumb_world *world, uint32_t piece);

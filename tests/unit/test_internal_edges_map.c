@@ -191,6 +191,10 @@ static void changes_are_followed(void **state)
     m.w = sim_space();
     plumb_body ball = sim_ball(m.w, -300, 0, 0.5, sim_material(m.w, 0, 0));
     plumb_body_set_no_sleep(m.w, ball, true); // while all sleep, nobody asks for internal edges
+    // While somebody sleeps, what is to be seen anew loses its box at once.
+    plumb_body sleeper =
+        plumb_body_create(m.w, &(plumb_body_desc){ .position = sim_vec(-300, 50), .asleep = true });
+    assert_false(plumb_is_null(sleeper));
     fill_map(&m, &seed, 1, PLUMB_STATIC);
     for (int round = 0; round < 400; ++round) {
         int i = (int)(sim_random(&seed) % (unsigned)m.count);
@@ -212,6 +216,13 @@ static void changes_are_followed(void **state)
             if (!m.filled[y][x]) { // from where it is to an empty cell
                 plumb_vec2 p = on_map(&m, x + 0.5, y + 0.5);
                 plumb_body b = m.body[i];
+                if (round % 3 > 0) {
+                    plumb_shape_set_filter(m.w, shape, (plumb_filter){ .category = 2 });
+                    plumb_shape_set_filter(m.w, shape, (plumb_filter){ 0 });
+                }
+                if (round % 2 > 0) {
+                    plumb_body_teleport(m.w, b, sim_vec(500, 0), 0);
+                }
                 plumb_body_teleport(m.w, b, p, (plumb_real)m.angle);
                 forget_tile(&m, i);
                 m.body[m.count] = b;

@@ -13,6 +13,7 @@
 
 #include "event/event.h"
 #include "broad/pairs.h"
+#include "world/rows.h"
 #include "plumb/plumb.h"
 #include "random_world.h"
 #include "world/state.h"
@@ -484,6 +485,10 @@ static void test_history_does_not_matter(void **state)
             worlds[w]->bodies.s[row] = t.q.s;
             pl_body_update_center(worlds[w], row);
             worlds[w]->static_dirty = true;
+            uint32_t p = worlds[w]->bodies.first_piece[row];
+            for (; p != PL_NONE; p = worlds[w]->pieces.next_in_body[p]) {
+                pl_piece_lose_box(worlds[w], p);
+            }
         }
         update(worlds[w]);
     }
