@@ -36,7 +36,7 @@ typedef struct plumb_explosion_desc {
 /// from far off. A convex piece that contains the point is pushed as if the blast were at its far side: along
 /// the way to its body's centre, by its width across. A blast inside what shields reaches nothing.
 /// Each piece is hit by 32 rays; what shields is asked of each. O(pieces near x 32 rays).
-/// Errors: E_NULL, E_RANGE, E_NOT_FINITE (also: a body would become too fast), E_HANDLE (filter), E_MEMORY;
+/// Errors: E_NULL, E_RANGE, E_NOT_FINITE (also: the velocity of a body would not be), E_HANDLE (filter), E_MEMORY;
 /// then no body is pushed.
 PLUMB_API plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc *desc);
 

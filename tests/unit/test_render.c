@@ -278,7 +278,7 @@ static void test_bounds(void **state)
     render_frame *frame = new_frame();
     add_disc(frame, 1.0, 2.0, 0.5);
     const render_vec trail[2] = { { 0.0, 0.0 }, { 4.0, 1.0 } };
-    render_add_trail(frame, trail, 2, 0);
+    render_add_trail(frame, trail, 2, render_palette(0));
     const render_box box = render_frame_bounds(frame);
     assert_true(box.min.x == 0.0 && box.min.y == 0.0 && box.max.x == 4.0 && box.max.y == 2.5);
     render_frame_destroy(frame);
@@ -316,7 +316,7 @@ static void test_bad_calls_are_refused(void **state)
                      RENDER_E_ARGUMENT);
     assert_int_equal(render_add_joint(frame, &(render_joint){ .value = NAN }), RENDER_E_NOT_FINITE);
     assert_int_equal(render_add_contact(frame, NAN, 0.0, 0.0, 1.0, 0.0), RENDER_E_NOT_FINITE);
-    assert_int_equal(render_add_trail(frame, bad, 3, 0), RENDER_E_NOT_FINITE);
+    assert_int_equal(render_add_trail(frame, bad, 3, render_palette(0)), RENDER_E_NOT_FINITE);
     assert_int_equal(render_add_text(frame, 0.0, 0.0, RENDER_ANCHOR_LEFT, NULL), RENDER_E_ARGUMENT);
     render_error error;
     render_target *target = new_target(8, 8);

@@ -26,7 +26,7 @@ static void add_every_overlay(render_frame *frame)
     assert_int_equal(render_add_field(frame, 0.0, 0.0, 1.0, -0.5, 9.8, 0.7), RENDER_OK);
     assert_int_equal(render_add_aabb(frame, box), RENDER_OK);
     assert_int_equal(render_add_cell(frame, box), RENDER_OK);
-    assert_int_equal(render_add_trail(frame, path, 3, 2), RENDER_OK);
+    assert_int_equal(render_add_trail(frame, path, 3, render_palette(2)), RENDER_OK);
     assert_int_equal(render_add_flow(frame, path, 3, 2.0, 1.0), RENDER_OK);
     assert_int_equal(render_add_surface(frame, path, 3, true, -0.3), RENDER_OK);
     for (int kind = 0; kind < RENDER_JOINT_KINDS; kind++) {

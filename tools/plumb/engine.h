@@ -76,13 +76,13 @@ typedef struct engine_info {
 
 /// One body now.
 typedef struct engine_row {
-    const char *name; ///< valid until the next step
-    double x, y;      ///< [m]
-    double angle;     ///< [rad]
-    double vx, vy;    ///< [m/s]
-    double w;         ///< [rad/s]
-    bool moves;       ///< not static
-    int palette;      ///< colour in which it is drawn
+    const char *name;       ///< valid until the next step
+    double x, y;            ///< [m]
+    double angle;           ///< [rad]
+    double vx, vy;          ///< [m/s]
+    double w;               ///< [rad/s]
+    bool moves;             ///< not static
+    unsigned char color[4]; ///< red, green, blue, opacity in which it is drawn
 } engine_row;
 
 /// One closed form of a scene.

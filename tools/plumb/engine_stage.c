@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../render/render.h"
+
 // ------------------------------------------------------------------------------- of a recording
 
 static int by_index(const void *a, const void *b)
@@ -245,6 +247,8 @@ int pl_stage_rows(engine_stage *stage, const engine_row **rows)
         scene_body body = pl_stage_body(stage, i);
         plumb_vec2 p = plumb_body_position(stage->world, body.entity);
         plumb_vec2 v = plumb_body_velocity(stage->world, body.entity);
+        const render_rgba of_palette = render_palette(pl_stage_palette(&body, i));
+        const bool said = body.color.a > 0;
         list[i] = (engine_row){
             .name = body.name,
             .x = (double)p.x,
@@ -254,7 +258,8 @@ int pl_stage_rows(engine_stage *stage, const engine_row **rows)
             .vy = (double)v.y,
             .w = (double)plumb_body_angular_velocity(stage->world, body.entity),
             .moves = plumb_body_get_type(stage->world, body.entity) != PLUMB_STATIC,
-            .palette = pl_stage_palette(&body, i),
+            .color = { said ? body.color.r : of_palette.r, said ? body.color.g : of_palette.g,
+                       said ? body.color.b : of_palette.b, 255 },
         };
     }
     *rows = list;

@@ -10,7 +10,7 @@
 
 struct trail {
     char name[128];
-    int palette;
+    render_rgba color;
     bool seen; ///< at the last recording: a body that is gone has no trail
     render_vec *points;
     double *times; ///< [s] of the points
@@ -36,7 +36,7 @@ static struct trail *find_trail(trail_set *set, const engine_row *row, int hint)
         set->room = room;
     }
     struct trail *t = &set->items[set->count++];
-    *t = (struct trail){ .palette = row->palette };
+    *t = (struct trail){ .color = { row->color[0], row->color[1], row->color[2], row->color[3] } };
     snprintf(t->name, sizeof t->name, "%s", row->name);
     return t;
 }
@@ -118,7 +118,7 @@ void trail_draw(const trail_set *set, render_frame *frame)
         for (size_t from = t->first, to; t->seen && from < t->count; from = to) {
             to = end_of_part(set, t, from);
             if (to - from >= 2) {
-                render_add_trail(frame, t->points + from, to - from, t->palette);
+                render_add_trail(frame, t->points + from, to - from, t->color);
             }
         }
     }

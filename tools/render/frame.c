@@ -384,9 +384,9 @@ static render_result add_path(render_frame *frame, plr_mark mark, const render_v
 }
 
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
-                               int palette)
+                               render_rgba color)
 {
-    return add_path(frame, (plr_mark){ .kind = PLR_TRAIL, .variant = palette }, points, count, 2);
+    return add_path(frame, (plr_mark){ .kind = PLR_TRAIL, .color = color }, points, count, 2);
 }
 
 render_result render_add_liquid(render_frame *frame, const render_vec *points, size_t count,

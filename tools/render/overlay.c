@@ -78,7 +78,7 @@ static void draw_trail(plr_painter *painter, const plr_mark *mark)
     enum { chunk = 256 };
     render_vec points[chunk];
     const render_vec *world = painter->frame->points + mark->first_point;
-    const render_rgba color = plr_mix(render_palette(mark->variant), plr_ink, 0.15);
+    const render_rgba color = plr_mix(mark->color, plr_ink, 0.15);
     const double span = (double)(mark->point_count - 1);
     for (size_t start = 0; start + 1 < mark->point_count; start += chunk - 1) {
         size_t n = 0;

@@ -175,9 +175,9 @@ render_result render_add_flow(render_frame *frame, const render_vec *points, siz
 /// A beam of light from a to b, whose brightness, 0 to 1, goes from `bright_a` to `bright_b`. Of a colour; a == 0: red.
 render_result render_add_beam(render_frame *frame, render_vec a, render_vec b, double bright_a,
                               double bright_b, render_rgba color);
-/// A trail, oldest point first (it fades towards that end), in palette colour `palette`.
+/// A trail, oldest point first: it fades towards that end.
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
-                               int palette);
+                               render_rgba color);
 
 /// The sign of a joint.
 typedef enum render_joint_kind {
