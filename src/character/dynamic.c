@@ -102,7 +102,7 @@ static void jump(pl_walker *m)
     b->vy[m->row] += (real)(gain * m->uy);
     const double force = gain * (double)b->mass[m->row] / m->dt;
     act_back(m, force * m->ux, force * m->uy);
-    c->left = (real)pl_right(m, (double)c->ground.velocity.x, (double)c->ground.velocity.y);
+    pl_walker_take_along(m, c->ground.velocity);
     c->on_ground = false;
     c->ground = (pl_ground){ 0 };
 }
@@ -154,7 +154,7 @@ bool pl_character_drive(plumb_world *world, pl_character *c, real dt)
     const bool stood = c->on_ground;
     look_for_ground(&m);
     if (stood && !c->on_ground) {
-        c->left = (real)pl_right(&m, (double)carried.x, (double)carried.y);
+        pl_walker_take_along(&m, carried);
     }
     bool jumps = c->jump > 0 && c->on_ground;
     if (c->flies) {

@@ -73,6 +73,11 @@ void pl_walker_stand(pl_walker *m, const pl_touch *t)
     }
 }
 
+void pl_walker_take_along(pl_walker *m, plumb_vec2 ground)
+{
+    m->c->left = (real)pl_right(m, (double)ground.x, (double)ground.y);
+}
+
 void pl_walker_leave_ground(pl_walker *m)
 {
     pl_character *c = m->c;
@@ -80,7 +85,7 @@ void pl_walker_leave_ground(pl_walker *m)
     if (row != PL_NONE) {
         pl_walker_rouse(m->world, row); // it bears him no more
     }
-    c->left = (real)pl_right(m, (double)c->ground.velocity.x, (double)c->ground.velocity.y);
+    pl_walker_take_along(m, c->ground.velocity);
     c->velocity.x = (real)((double)c->ground.velocity.x + (double)c->speed * m->ny);
     c->velocity.y = (real)((double)c->ground.velocity.y - (double)c->speed * m->nx);
     c->on_ground = c->climbs = false;

@@ -105,6 +105,8 @@ double pl_walker_walk(pl_walker *m, double way, double time);
 // Finds the ground within `reach` [m] below and settles on it. False: there is none.
 bool pl_walker_settle(pl_walker *m, double reach);
 void pl_walker_stand(pl_walker *m, const pl_touch *touch);
+// Keeps for the air what ground at this velocity [m/s] has to the right.
+void pl_walker_take_along(pl_walker *m, plumb_vec2 ground);
 void pl_walker_leave_ground(pl_walker *m);
 
 //---- air.c: flight over `time` [s]; returns the time that is left when it lands, else 0.

@@ -5,6 +5,7 @@
 
 #include "world/island.h"
 #include "world/rows.h"
+#include "world/stale_edges.h"
 
 #include <string.h>
 
@@ -58,7 +59,9 @@ void pl_waves_refile(plumb_world *world, plumb_shape shape, bool on)
          p = world->pieces.next_in_shape[p]) {
         uint8_t *flags = &world->pieces.flags[p];
         *flags = (uint8_t)(on ? *flags | PL_PIECE_WAVES : *flags & ~PL_PIECE_WAVES);
-        pl_piece_lose_box(world, p);
+        if (pl_piece_is_static(world, p)) {
+            pl_piece_lose_box(world, p);
+        }
         pl_sleep_wake_swimmers(world, p);
     }
     world->static_dirty = true;

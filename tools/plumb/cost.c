@@ -56,17 +56,21 @@ int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run)
     return open_for(plan, set, false, run);
 }
 
-/// Steps of the scene's own from one moment to the next: both are there in a run of finer steps.
-static int stride_of(const cost_plan *plan)
+/// Of the scene's own steps, one at the least.
+static double steps_of(const cost_plan *plan)
 {
-    const int steps = (int)ceil(plan->time / plan->dt - 1e-6);
-    return (steps + COMPARED_MOMENTS - 1) / COMPARED_MOMENTS;
+    return fmax(1, ceil(plan->time / plan->dt - 1e-6));
+}
+
+/// Steps of the scene's own from one moment to the next: both are there in a run of finer steps.
+static double stride_of(const cost_plan *plan)
+{
+    return ceil(steps_of(plan) / COMPARED_MOMENTS);
 }
 
 int cost_moments(const cost_plan *plan)
 {
-    const int steps = (int)ceil(plan->time / plan->dt - 1e-6);
-    return steps / stride_of(plan);
+    return (int)(steps_of(plan) / stride_of(plan));
 }
 
 double cost_moment(const cost_plan *plan, int moment)
@@ -120,6 +124,13 @@ static int look_at_forms(watch *w, scene_run *run, double elapsed)
     return CLI_OK;
 }
 
+/// The places of a moment; `run` null: nobody looked. False: out of memory.
+static bool keep(watch *w, const scene_run *run)
+{
+    w->moment++;
+    return w->track == NULL || cost_track_add(w->track, run);
+}
+
 static int look(watch *w, scene_run *run, double elapsed)
 {
     int code = CLI_OK;
@@ -131,19 +142,16 @@ static int look(watch *w, scene_run *run, double elapsed)
     }
     const double slack = SAME_MOMENT * run->info.dt;
     bool kept = true;
-    for (; cost_moment(w->plan, w->moment) < elapsed - slack;
-         w->moment++) { // passed over by a long step
-        kept = kept && (w->track == NULL || cost_track_add(w->track, NULL));
+    while (kept &&
+           cost_moment(w->plan, w->moment) < elapsed - slack) { // a long step passed it over
+        kept = keep(w, NULL);
     }
-    const bool due = code == CLI_OK && cost_moment(w->plan, w->moment) <= elapsed + slack;
-    kept = kept && (!due || w->track == NULL || cost_track_add(w->track, run));
-    w->moment += due ? 1 : 0;
-    if (!kept) {
+    if (kept && (code != CLI_OK || cost_moment(w->plan, w->moment) > elapsed + slack)) {
+        return code;
+    }
+    if (!kept || !keep(w, run)) {
         cli_message("out of memory");
         return CLI_FAILED;
-    }
-    if (!due) {
-        return code;
     }
     if (elapsed > w->plan->horizon) {
         engine_totals now = run->engine->totals(run->stage);

@@ -28,6 +28,16 @@ static void add_to_box(engine_box *box, plumb_aabb b)
     box->max_y = fmax(box->max_y, (double)b.max.y);
 }
 
+/// Without room nobody is left out.
+static void add_mover(struct crowd *c, plumb_aabb b, engine_box *moving)
+{
+    if (c->boxes != NULL && c->sorted != NULL) {
+        c->boxes[c->count++] = b;
+    } else {
+        add_to_box(moving, b);
+    }
+}
+
 static double middle_x(plumb_aabb b)
 {
     return ((double)b.min.x + (double)b.max.x) / 2;
@@ -77,7 +87,6 @@ void pl_stage_bounds(const engine_stage *stage, double reach, engine_box *moving
     const int count = pl_stage_body_count(stage);
     const size_t room = (size_t)count + SOFT_MOST;
     struct crowd c = { malloc(room * sizeof *c.boxes), malloc(room * sizeof *c.sorted), 0 };
-    const bool all = c.boxes == NULL || c.sorted == NULL; // then nobody is left out
 
     *moving = *fixed = empty;
     for (int i = 0; i < count; i++) {
@@ -87,21 +96,16 @@ void pl_stage_bounds(const engine_stage *stage, double reach, engine_box *moving
         if (body.hidden || !(b.min.x <= b.max.x)) {
             continue;
         }
-        if (is_static || all) {
-            add_to_box(is_static ? fixed : moving, b);
+        if (is_static) {
+            add_to_box(fixed, b);
         } else {
-            c.boxes[c.count++] = b;
+            add_mover(&c, b, moving);
         }
     }
     plumb_softbody soft[SOFT_MOST];
     const int soft_count = plumb_world_softbodies(stage->world, soft, SOFT_MOST);
     for (int i = 0; i < soft_count && i < SOFT_MOST; i++) {
-        const plumb_aabb b = pl_stage_softbody_box(stage, soft[i]);
-        if (all) {
-            add_to_box(moving, b);
-        } else {
-            c.boxes[c.count++] = b;
-        }
+        add_mover(&c, pl_stage_softbody_box(stage, soft[i]), moving);
     }
     if (c.count > 0) {
         add_bulk(&c, reach, moving);
