@@ -123,11 +123,12 @@ WIDE_INLINE vf answer_of(vf answer[3], const parts *at, const int n, const row *
     return sel(answered, splat(1) / sel(answered, whole, splat(1)), mass);
 }
 
-// A limit, with what a rigid block of n rows answers to it: an angle is stopped about the hinge, not about the centre.
-WIDE_PART void solve_limit(const parts *at, const pl_joint_pattern *p, int i, const int n,
+// A limit, with what a rigid block answers to it: an angle is stopped about the hinge, not about the centre.
+WIDE_PART void solve_limit(const parts *at, const pl_joint_pattern *p, int i,
                            const pl_joint_call *call, const bool pull, const bool first, body *a,
                            body *b)
 {
+    const int n = p->block;
     row *r = &at->rows[i];
     const single *s = &at->singles[i - p->block];
     demand d;
@@ -282,7 +283,7 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
     }
     for (int i = p->count - 1; i >= p->block; --i) {
         if (is_answered(p, i)) {
-            solve_limit(at, p, i, p->block, call, pull, first, a, b);
+            solve_limit(at, p, i, call, pull, first, a, b);
         }
     }
 }

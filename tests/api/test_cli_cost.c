@@ -188,6 +188,17 @@ static double field(const char **at)
 }
 
 // In order of time, on a front errors fall: of each quantity alone.
+enum { FIELDS = 23 };
+
+// A line of --csv: its fields behind the engine's name.
+static void read_line(const char **at, double values[FIELDS])
+{
+    (void)field(at);
+    for (int i = 0; i < FIELDS; i++) {
+        values[i] = field(at);
+    }
+}
+
 static void csv_can_be_read(void **state)
 {
     (void)state;
@@ -204,12 +215,9 @@ static void csv_can_be_read(void **state)
     double last[2] = { INFINITY, INFINITY }, cpu = 0;
     int lines = 0, own = 0, fronts = 0;
     for (const char *at = strchr(out, '\n') + 1; *at != '\0'; lines++) {
-        double values[23];
+        double values[FIELDS];
         const char *line = at;
-        (void)field(&at); // the engine
-        for (int i = 0; i < 23; i++) {
-            values[i] = field(&at);
-        }
+        read_line(&at, values);
         assert_int_equal(at[-1], '\n');
         int q =
             strstr(line, "\"energy, total\",1,") != NULL && strstr(line, "\"energy") < at ? 0 : 1;
@@ -248,11 +256,8 @@ static void places_are_those_of_the_same_moment(void **state)
                     0);
         int lines = 0, longer = 0;
         for (const char *at = strchr(out, '\n') + 1; *at != '\0'; lines++) {
-            double values[23];
-            (void)field(&at);
-            for (int k = 0; k < 23; k++) {
-                values[k] = field(&at);
-            }
+            double values[FIELDS];
+            read_line(&at, values);
             longer += values[1] > 0.02;
             assert_true(values[7] >= 0 && values[7] < 1e-9);
         }
