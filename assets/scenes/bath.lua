@@ -1,5 +1,6 @@
 -- bath.lua - what floats, and how deep: blocks of six densities, a boat with a load, balls that are let go under water.
 -- Shows: water, buoyancy by exact areas, which way up logs float, rest and sleep on the water.
+-- lint: allow units: balls of a density of 1 pop up from under water
 scene { title = "Bath", description = "As deep as its density; a square log lies flat only below 0.21 and above 0.79.", duration = 12 }
 camera { fit = {{-9.4, -4.5}, {9.4, 2.6}}, at = 0.75 }
 local tub = material { friction = 0.4, density = 2000 }

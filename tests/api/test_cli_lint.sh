@@ -134,7 +134,34 @@ rule size 0.004 0.04 <<'END'
 body { name = "needle", box { 1, @ }, at = {0, 2} }
 END
 rule size 400 40 <<'END'
+scene { gravity = {0, 0} }
 body { name = "mountain", circle { @ }, at = {0, 2} }
+END
+rule units 'angle = 45' 'angle_deg = 45' <<'END'
+body { name = "plank", box { 1, 0.1 }, at = {0, 2}, @ }
+END
+rule units '{-45, 45}' '{-0.8, 0.8}' <<'END'
+local arm = body { name = "arm", box { 1, 0.1 }, at = {0.5, 2} }
+revolute { arm, at = {0, 2}, limits = @ }
+END
+rule units 64 0.64 <<'END'
+for i = 1, 3 do body { name = "crate" .. i, box { @, @ }, at = {100 * i, 0} } end
+END
+rule units -981 -9.81 <<'END'
+scene { gravity = {0, @} }
+body { name = "crate", box { 1, 1 } }
+END
+rule units 9.81 -9.81 <<'END'
+scene { gravity = {0, @} }
+body { name = "crate", box { 1, 1 } }
+END
+rule units up down <<'END'
+scene { y = "@", gravity = {0, 9.81} }
+body { name = "crate", box { 1, 1 } }
+END
+rule units 1 300 <<'END'
+water { box { 18, 4 }, at = {0, -2} }
+for i = 1, 3 do body { name = "log" .. i, box { 1, 1 }, density = @, at = {2 * i, 3} } end
 END
 
 # Far from the origin, for its size: a matter of precision.

@@ -363,6 +363,7 @@ static scene_body show_body(const sc_body *b)
     return (scene_body){ .entity = b->entity,
                          .name = b->def.name,
                          .is_named = b->is_named,
+                         .angle = b->def.angle,
                          .label = b->def.label,
                          .palette = b->def.color.palette,
                          .color = b->def.color.rgba,

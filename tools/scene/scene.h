@@ -159,6 +159,7 @@ typedef struct scene_body {
     plumb_body entity;
     const char *name; ///< never empty: unnamed bodies are body1, body2, ... by order of making
     bool is_named;    ///< the author gave the name
+    double angle;     ///< [rad] that the author gave last, with its full turns
     /// "" when none is wanted; the renderer may fall back on the name if is_named
     const char *label;
     int palette;      ///< colour number, -1 when the author gave none

@@ -1,5 +1,6 @@
 -- size_huge.lua - a stack and a pyramid of 100 m blocks and a ball that rolls (Box2D advises 10 m at most).
 -- Fails: recovery and stiffness in metres and seconds. Right: they stand as boxes of a metre do.
+-- lint: allow units: it is about 100 m
 scene { title = "Blocks of 100 m", duration = 4 }
 local size, n = param("size", 100, 1, 1000), param("n", 10, 2, 40)
 local wood = material { density = 600, friction = 0.6 }
