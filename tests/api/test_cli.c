@@ -261,7 +261,17 @@ static void energy_is_explained(void **state)
     assert_null(strstr(out, "  normal "));
     assert_non_null(strstr(out, "  rest "));
     assert_null(strstr(out, "Left out"));
+    assert_null(strstr(out, "  script "));
     assert_non_null(strstr(out, "contacts overlap by 0 m"));
+    // A blow of 3 N s to the side gives a kilogram at rest there 4.5 J.
+    write_text("blow.lua",
+               "scene { gravity = { 0, -10 } }\n"
+               "local ball = body { circle { 1, density = 1 / math.pi }, at = { 0, 9 } }\n"
+               "at(0.25, function() ball:apply_impulse(3, 0) end)\n");
+    expect_code("\"$P\" explain blow.lua --energy --time 0.5 --precision double", 0);
+    assert_non_null(strstr(out, "Energy over 30 steps [J]: 90 before, 94.5 after\n"));
+    assert_non_null(
+        strstr(out, "  script                                        4.5  what the scene's"));
 }
 
 static void what_a_scene_prints_is_no_data(void **state)

@@ -23,6 +23,8 @@ static const double DEFAULT_TIME = 1;
 /// In how many steps of a run it is asked because of whom passes run, and what they visit.
 static const long long LOOKS = 16;
 
+/// [-] of the largest energy: less is the rounding of two sums.
+static const double BETWEEN = 1e-5;
 /// [-] of the largest energy in a table: less is none.
 static const double ROUNDING = 1e-12;
 
@@ -265,7 +267,7 @@ static int report(const explain_args *args, const scene_run *run, const char *pa
     return code;
 }
 
-/// What is between the sum and `after` - `before` was changed between the steps: by functions of the scene.
+/// What is between the sum of the works and `after` - `before` was changed between the steps: by functions of the scene.
 static void print_energy(const engine_measures *m)
 {
     double sum[2] = { 0 }, most = 0;
@@ -284,7 +286,13 @@ static void print_energy(const engine_measures *m)
                    kinetic + potential, m->works[i].text);
         }
     }
-    printf("  %-10s%13.5g%13.5g%13.5g\n", "all", sum[0], sum[1], sum[0] + sum[1]);
+    const double between = m->after - m->before - sum[0] - sum[1];
+    if (fabs(between) > BETWEEN * fmax(most, fmax(fabs(m->before), fabs(m->after)))) {
+        printf("  %-10s%13s%13s%13.5g  what the scene's functions did between steps: blows, thrown "
+               "and moved bodies, new ones\n",
+               "script", "", "", between);
+    }
+    printf("  %-10s%13.5g%13.5g%13.5g\n", "all", sum[0], sum[1], m->after - m->before);
     printf("\nMost in any step, where its last substep ended:\n");
     printf("  contacts overlap by %.3g m, approach at %.3g m/s, push over gaps with %.3g N s m, "
            "exceed friction by %.3g N s\n",

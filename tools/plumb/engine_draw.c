@@ -263,7 +263,8 @@ static bool add_body(engine_stage *stage, const scene_body *body, int index, boo
         return false;
     }
     const char *label = body->label[0] != '\0' ? body->label : NULL;
-    if (label == NULL && names && body->is_named && type != PLUMB_STATIC) {
+    const bool wanted = names && (type != PLUMB_STATIC || (show & ENGINE_SHOW_NAMES) != 0);
+    if (label == NULL && wanted && body->is_named) {
         label = body->name;
     }
     bool asleep = !plumb_body_is_awake(world, body->entity);
