@@ -255,7 +255,7 @@ static const malformed table[] = {
               "local j = revolute{ d }\n"
               "j.angle = 2",
       .code = SCENE_E_STATE,
-      .message = "scene.lua:3:1: a joint's 'angle' cannot be assigned: call a method" },
+      .message = "scene.lua:3:3: a joint's 'angle' cannot be assigned: call a method" },
     { .what = "dead joint",
       .file = "scene.lua",
       .text = "local d = body{ name = 'door', box{1, 1} }\n"

@@ -294,7 +294,7 @@ static const malformed table[] = {
       .text = "local b = body{ box{1, 1} }\n"
               "b.position = 5",
       .code = SCENE_E_STATE,
-      .message = "scene.lua:2:1: a body's 'position' cannot be assigned: call a method, or keep values in body.user" },
+      .message = "scene.lua:2:3: a body's 'position' cannot be assigned: call a method, or keep values in body.user" },
     { .what = "unknown method",
       .file = "scene.lua",
       .text = "local b = body{ box{1, 1} }\n"
@@ -507,6 +507,10 @@ static scene *load(const char *text)
     return s;
 }
 
+// Two that touch in the first step, and a line.
+#define TOUCHING                                                                                   \
+    "body{ type = 'static', box{9, 1}, at = {0, -0.5} } body{ box{1, 1}, at = {0, 0.5} }\n"
+
 // Errors of handlers come out of scene_step, with their place, again and again.
 static void test_handler_errors(void **state)
 {
@@ -525,6 +529,26 @@ static void test_handler_errors(void **state)
         { "body{ name = 'b', box{1, 1} }\nat(0, function() local b = find('b') b:destroy() "
           "b:mass() end)",
           "scene.lua:2:52: mass() of a body that was destroyed" },
+        { "body{ name = 'box', box{1, 1} }\nat(0, function() local n = 1\n  find('bx'):destroy() "
+          "end)",
+          "scene.lua:3:3: there is no body 'bx' (did you mean 'box'?)" },
+        { "body{ name = 'box', box{1, 1} }\nat(0, function()\n  local b = find('bx')\n  "
+          "b:destroy() end)",
+          "scene.lua:4:3: attempt to index a nil value (local 'b')" },
+        { "local b = body{ box{1, 1} }\nrevolute{ b, at = {0, 0}, name = 'hinge' }\n"
+          "at(0, function() find_joint('hing'):destroy() end)",
+          "scene.lua:3:18: there is no joint 'hing' (did you mean 'hinge'?)" },
+        { TOUCHING "on_contact(function(a, b, c) print(c.impulse, c.sped) end)",
+          "scene.lua:2:49: a contact has no 'sped'; it has impulse nx ny speed time x y (did you "
+          "mean 'speed'?)" },
+        { TOUCHING "edit_contact(function(a, b, c) c.enabeld = false end)",
+          "scene.lua:2:34: a contact has no 'enabeld'; it has enabled friction nx ny restitution "
+          "rolling_resistance "
+          "separation surface_speed touching x y (did you mean 'enabled'?)" },
+        { "body{ box{1, 1} }\nat(0, function() return heat().burn end)",
+          "scene.lua:2:32: heat() has no 'burn'; it has burning burnt carried content gone heating "
+          "held mechanical melted "
+          "owed radiated (did you mean 'burnt'?)" },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         scene *s = load(rows[i][0]);

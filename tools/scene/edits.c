@@ -6,7 +6,7 @@
 static void push_edit(lua_State *L, const plumb_contact_edit *e, bool swapped)
 {
     plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;
-    lua_createtable(L, 0, 12);
+    sc_push_told(L, SC_TOLD_EDIT);
     sc_push_field(L, "x", e->points[0].x);
     sc_push_field(L, "y", e->points[0].y);
     sc_push_field(L, "nx", sign * e->normal.x);

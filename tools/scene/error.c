@@ -161,8 +161,37 @@ static void take_syntax(scene *s, int line, const char *message)
     sc_set_error(s, SCENE_E_SYNTAX, line, column, NULL, message);
 }
 
+void sc_missed_set(scene *s, const char *what, const char *name)
+{
+    s->missed = (sc_missed){ .what = what, .line = sc_here(s, what).line };
+    snprintf(s->missed.name, sizeof s->missed.name, "%s", name);
+}
+
+// find("b"):destroy() where nobody is called b: Lua knows only that something is nil.
+static bool take_missed(scene *s, int line, const char *message)
+{
+    const sc_missed *m = &s->missed;
+    if (m->what == NULL || m->line != line ||
+        strcmp(message, "attempt to index a nil value") != 0) {
+        return false;
+    }
+    const bool body = strcmp(m->what, "find") == 0;
+    sc_suggest g = sc_suggest_start(m->name);
+    for (int i = 0; i < (body ? s->bodies.count : s->joints.count); i++) {
+        sc_suggest_offer(&g, body ? s->bodies.items[i]->def.name : s->joints.items[i]->def.name);
+    }
+    char text[sizeof s->error.message];
+    snprintf(text, sizeof text, "there is no %s '%s'", body ? "body" : "joint", m->name);
+    sc_set_error(s, SCENE_E_NAME, line, sc_lua_column(s->source, s->source_size, line, m->what),
+                 sc_suggest_best(&g), text);
+    return true;
+}
+
 static void take_runtime(scene *s, int line, const char *message)
 {
+    if (take_missed(s, line, message)) {
+        return;
+    }
     char name[SC_NAME_SIZE] = "";
     const char *p = strchr(message, '(');
     if (p != NULL) { // attempt to index a nil value (local 'x')

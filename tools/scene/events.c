@@ -145,7 +145,7 @@ typedef struct blow {
 static void push_blow(lua_State *L, const blow *e, bool swapped)
 {
     plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;
-    lua_createtable(L, 0, 6);
+    sc_push_told(L, SC_TOLD_CONTACT);
     sc_push_field(L, "x", e->point.x);
     sc_push_field(L, "y", e->point.y);
     sc_push_field(L, "nx", sign * e->normal.x);
@@ -328,7 +328,7 @@ static void dispatch_joint(scene *s, sc_handler_kind kind, const sc_name *name,
         }
         lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
         lua_pushstring(L, name->text);
-        lua_createtable(L, 0, 8);
+        sc_push_told(L, SC_TOLD_JOINT);
         push_end(s, "a", e->body_a);
         push_end(s, "b", e->body_b);
         sc_push_field(L, "x", e->point.x);

@@ -321,7 +321,7 @@ static void tell(scene *s, const sc_shattered *e, const sc_handler *h)
     }
     lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
     sc_body_push(s, body);
-    lua_createtable(L, 0, 8);
+    sc_push_told(L, SC_TOLD_SHATTER);
     sc_push_field(L, "x", e->event.point.x);
     sc_push_field(L, "y", e->event.point.y);
     sc_push_field(L, "nx", e->event.normal.x);

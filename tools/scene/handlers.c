@@ -165,6 +165,7 @@ static int lua_find_body(lua_State *L)
     scene *s = sc_of(L);
     const sc_body *b = sc_body_named(s, luaL_checkstring(L, 1));
     if (b == NULL) {
+        sc_missed_set(s, "find", lua_tostring(L, 1));
         lua_pushnil(L);
     } else {
         sc_body_push(s, b);

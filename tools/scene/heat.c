@@ -115,7 +115,7 @@ static void tell(scene *s, const sc_gone *e, const sc_handler *h)
     sc_need_stack(s, 6);
     lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
     lua_rawgeti(L, LUA_REGISTRYINDEX, e->object);
-    lua_createtable(L, 0, 4);
+    sc_push_told(L, SC_TOLD_GONE);
     sc_push_field(L, "x", e->event.position.x);
     sc_push_field(L, "y", e->event.position.y);
     sc_push_field(L, "mass", e->event.mass);
@@ -151,7 +151,7 @@ static int lua_heat(lua_State *L)
     sc_need_world(s);
     sc_work(s, 20 + (uint64_t)s->bodies.count);
     plumb_world_heat(s->world, &sums);
-    lua_createtable(L, 0, 11);
+    sc_push_told(L, SC_TOLD_HEAT);
 #define FIELD(member)                                                                              \
     lua_pushnumber(L, sums.member);                                                                \
     lua_setfield(L, -2, #member);

@@ -66,6 +66,8 @@ sc_site sc_here(scene *s, const char *construct);
 void sc_need_stack(scene *s, int slots);
 /// Turns a failed lua_pcall into s->error (unless sc_raise did already) and empties the stack.
 void sc_take_error(scene *s, int status);
+/// Keeps what a script has looked for in vain, for the message of who uses the nil that it got.
+void sc_missed_set(scene *s, const char *what, const char *name);
 /// Fills s->error without leaving.
 void sc_set_error(scene *s, scene_code code, int line, int column, const char *suggestion,
                   const char *message);
@@ -223,6 +225,13 @@ bool sc_parse_color(const char *text, sc_color *out);
         int count, capacity;                                                                       \
     }
 
+/// find() or find_joint() that found nothing; `what` is NULL: none has yet.
+typedef struct sc_missed {
+    const char *what; ///< "find", "find_joint"
+    char name[SC_NAME_SIZE];
+    int line;
+} sc_missed;
+
 struct scene {
     lua_State *L; ///< the thread that runs; outside sc_protect, the main one
     lua_State *threads[SC_PROTECTED_DEPTH]; ///< what sc_protect runs in
@@ -237,6 +246,7 @@ struct scene {
     bool is_json;
     scene_error error;       ///< code != SCENE_OK: the scene has failed
     const char *raising_set; ///< key of --set whose value is being read, else null
+    sc_missed missed;        ///< what a script last looked for in vain
 
     sc_settings settings;
     bool settings_given;
@@ -418,6 +428,7 @@ void sc_open_joints(lua_State *L);     ///< revolute, wheel, ..., exclude, world
 void sc_open_joint(lua_State *L);      ///< methods of joints
 void sc_open_handlers(lua_State *L);   ///< at, every, score, ...
 void sc_open_events(lua_State *L);     ///< on_contact, on_break, ...
+void sc_open_told(lua_State *L);       ///< tables of facts
 void sc_open_expect(lua_State *L);     ///< expect, exact
 void sc_open_field(lua_State *L);      ///< field
 void sc_open_math(lua_State *L);       ///< math, random
@@ -607,6 +618,19 @@ bool sc_handler_wants(const sc_handler *h, const char *a, const char *b, bool *s
 void sc_open_edits(scene *s, const sc_site *site);
 /// A number in the table on top.
 void sc_push_field(lua_State *L, const char *name, plumb_real v);
+/// What a table of facts is about (told.c).
+typedef enum sc_told {
+    SC_TOLD_CONTACT,
+    SC_TOLD_EDIT,
+    SC_TOLD_JOINT,
+    SC_TOLD_SHATTER,
+    SC_TOLD_GONE,
+    SC_TOLD_WET,
+    SC_TOLD_HEAT,
+    SC_TOLD_RAY
+} sc_told;
+/// A new table that refuses fields which facts of that kind do not have.
+void sc_push_told(lua_State *L, sc_told kind);
 /// Calls the function on the stack (below `args` arguments) with a fresh instruction budget.
 void sc_call(scene *s, int args, int results);
 

@@ -398,6 +398,7 @@ static int lua_find_joint(lua_State *L)
     scene *s = sc_of(L);
     const sc_joint *j = sc_joint_named(s, luaL_checkstring(L, 1));
     if (j == NULL) {
+        sc_missed_set(s, "find_joint", lua_tostring(L, 1));
         lua_pushnil(L);
     } else {
         sc_joint_push(s, j->entity);

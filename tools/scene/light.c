@@ -269,7 +269,7 @@ static void push_segment(scene *s, const plumb_light_segment *p)
 {
     lua_State *L = s->L;
     static const char *const hows[] = { "sent", "reflected", "refracted" };
-    lua_newtable(L);
+    sc_push_told(L, SC_TOLD_RAY);
     set_number(L, "x0", p->from.x);
     set_number(L, "y0", p->from.y);
     set_number(L, "x1", p->to.x);

@@ -238,6 +238,7 @@ static int open_protected(lua_State *L)
     sc_open_joint(L);
     sc_open_handlers(L);
     sc_open_events(L);
+    sc_open_told(L);
     sc_open_field(L);
     sc_open_expect(L);
     sc_open_json(L);

@@ -224,21 +224,25 @@ static int find_member(const tokens *list, int open, const char *key, int index)
     return -1;
 }
 
-// The token that starts the construct on its line and, if the call holds it, the wanted member.
+// The token that starts the construct on its line and, if the call holds it, the wanted member; else the word, where it is no call.
 void sc_lua_position(const char *text, size_t size, const sc_site *site, const char *key, int index,
                      int *line, int *column)
 {
     tokens list = tokenize(text, size);
     int found = -1;
     bool exact = false;
-    int first = -1;
+    int first = -1, word = -1;
     for (int i = 0; i < list.count && list.items[i].line <= site->line && !exact; i++) {
         if (list.items[i].line < site->line) {
             continue;
         }
         first = first < 0 ? i : first;
         const char *name = site->outer != NULL ? site->outer : site->construct;
-        if (!is_text(&list, i, name) || i + 1 >= list.count ||
+        if (!is_text(&list, i, name)) {
+            continue;
+        }
+        word = word < 0 ? i : word;
+        if (i + 1 >= list.count ||
             !(opens(&list, i + 1) || list.items[i + 1].kind == TOKEN_STRING)) {
             continue;
         }
@@ -257,7 +261,7 @@ void sc_lua_position(const char *text, size_t size, const sc_site *site, const c
             found = i;
         }
     }
-    found = found < 0 ? first : found;
+    found = found >= 0 ? found : word >= 0 ? word : first;
     *line = site->line;
     *column = 1;
     if (found >= 0) {

@@ -73,6 +73,13 @@ const sc_synonym sc_synonyms[] = {
     { "dynamic_friction", "kinetic_friction" },
     { "sliding_friction", "kinetic_friction" },
     { "trigger", "sensor" },
+    { "is_sensor", "sensor" },
+    { "bullet", "continuous" },
+    { "is_bullet", "continuous" },
+    { "ccd", "continuous" },
+    { "linear_damping", "damping" },
+    { "spin_damping", "angular_damping" },
+    { "can_sleep", "sleep" },
     { NULL, NULL },
 };
 

@@ -113,7 +113,7 @@ static void tell(scene *s, sc_handler_kind kind, plumb_body body, const plumb_ve
         lua_rawgeti(L, LUA_REGISTRYINDEX, h.contact.function);
         lua_pushvalue(L, top + 1);
         if (force != NULL) {
-            lua_createtable(L, 0, 2);
+            sc_push_told(L, SC_TOLD_WET);
             sc_push_field(L, "fx", force->x);
             sc_push_field(L, "fy", force->y);
         }
