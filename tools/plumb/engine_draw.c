@@ -18,20 +18,13 @@ enum {
     NAMES_MAX = 12 ///< bodies that are named in the picture unasked; more would hide what they name
 };
 
-static render_vec to_world(plumb_transform frame, plumb_vec2 p)
-{
-    double c = (double)frame.q.c, s = (double)frame.q.s;
-    double x = (double)p.x, y = (double)p.y;
-    return (render_vec){ (double)frame.p.x + c * x - s * y, (double)frame.p.y + s * x + c * y };
-}
-
 /// A disc, capsule or polygon.
 static void add_piece(render_frame *frame, const plumb_convex *piece, plumb_transform where)
 {
     render_vec points[PLUMB_POLYGON_MAX_VERTICES];
     double radius = (double)piece->radius;
     for (int i = 0; i < piece->count; i++) {
-        points[i] = to_world(where, piece->points[i]);
+        points[i] = pl_to_world(where, piece->points[i]);
     }
     if (piece->count == 1) {
         double angle = atan2((double)where.q.s, (double)where.q.c);
@@ -61,9 +54,9 @@ static void add_line(const plumb_world *world, plumb_shape shape, int pieces, pl
             count = 1;
         }
         if (count == 0) {
-            points[count++] = to_world(where, piece.points[0]);
+            points[count++] = pl_to_world(where, piece.points[0]);
         }
-        points[count++] = to_world(where, piece.points[1]);
+        points[count++] = pl_to_world(where, piece.points[1]);
     }
     if (count < 2) {
         return;
@@ -153,29 +146,6 @@ static shape_role role_of(const plumb_world *world, plumb_shape shape)
     return material.fluid && !material.weightless ? ROLE_FLUID : ROLE_SENSOR;
 }
 
-/// Lines along those sides of a fluid that face up.
-static void add_surface(const plumb_world *world, plumb_shape shape, plumb_transform where,
-                        render_frame *frame)
-{
-    const plumb_vec2 g = plumb_world_gravity(world), standing = plumb_world_up(world);
-    const plumb_vec2 up = g.x != 0 || g.y != 0 ? plumb_vec2_unit(plumb_vec2_neg(g)) : standing;
-    for (int i = 0; i < plumb_shape_piece_count(world, shape); i++) {
-        plumb_convex piece;
-        uint32_t cuts = 0;
-        if (plumb_shape_piece(world, shape, i, &piece, &cuts) != PLUMB_OK || piece.count < 3) {
-            continue;
-        }
-        for (int k = 0; k < piece.count; k++) {
-            const plumb_vec2 out = plumb_rot_apply(where.q, piece.normals[k]);
-            if ((cuts >> k & 1) == 0 && (double)plumb_vec2_dot(out, up) > 0.9) {
-                const render_vec line[2] = { to_world(where, piece.points[k]),
-                                             to_world(where, piece.points[(k + 1) % piece.count]) };
-                render_add_polyline(frame, line, 2, 0, 0);
-            }
-        }
-    }
-}
-
 /// The shapes of a body that are of a role; true when there was something.
 static bool add_shapes(const engine_stage *stage, int count, shape_role role, plumb_transform where,
                        bool is_static, const render_style *style, render_frame *frame)
@@ -191,8 +161,9 @@ static bool add_shapes(const engine_stage *stage, int count, shape_role role, pl
             }
             add_shape(stage->world, stage->shapes[i], where, frame,
                       is_static && role == ROLE_SOLID);
+            pl_stage_add_one_way(stage->world, stage->shapes[i], where, frame);
             if (role == ROLE_FLUID) {
-                add_surface(stage->world, stage->shapes[i], where, frame);
+                pl_stage_add_water_line(stage->world, stage->shapes[i], where, frame);
             }
         }
     }

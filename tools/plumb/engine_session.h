@@ -99,6 +99,14 @@ int pl_stage_palette(const scene_body *body, int i);
 /// Parts of pl_stage_draw: joints that are not hidden; of `shapes` those that run.
 void pl_stage_add_joints(const engine_stage *stage, struct render_frame *frame);
 plumb_aabb pl_stage_softbody_box(const engine_stage *stage, plumb_softbody body); ///< of its nodes
+/// A point of a body's frame, in the world.
+struct render_vec pl_to_world(plumb_transform frame, plumb_vec2 p);
+/// Lines along those sides of a fluid that face up.
+void pl_stage_add_water_line(const plumb_world *world, plumb_shape shape, plumb_transform where,
+                             struct render_frame *frame);
+/// Of a one-way platform: arrow heads on the side from which things come through; else nothing.
+void pl_stage_add_one_way(const plumb_world *world, plumb_shape shape, plumb_transform where,
+                          struct render_frame *frame);
 /// Water whose surface has waves; false: the shape has none.
 bool pl_stage_add_waves(const engine_stage *stage, plumb_shape shape, plumb_transform where,
                         struct render_frame *frame);

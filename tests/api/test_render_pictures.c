@@ -1,5 +1,5 @@
-// test_render_camera.c - where a scene says nothing of a camera: what moves is in the picture, and large enough, from the first
-// picture of a film to the last, and in one picture alone. PLUMB_FLOAT_ONLY: the command line holds all three precisions.
+// test_render_pictures.c - what is to be seen in pictures. Where a scene says nothing of a camera: what moves, and large enough, from
+// the first picture of a film to the last, and in one picture alone. Which platforms let one through. PLUMB_FLOAT_ONLY: the command line holds all three precisions.
 #define _XOPEN_SOURCE 700 // mkdtemp, realpath, popen's relatives
 
 #include "cli_fixture.h"
@@ -73,10 +73,29 @@ static void what_moves_is_in_the_picture(void **state)
     }
 }
 
+// Arrow heads below it, in its colour.
+static void a_one_way_platform_has_a_sign(void **state)
+{
+    (void)state;
+    double share[2];
+    for (int i = 0; i < 2; i++) {
+        char scene[256];
+        snprintf(scene, sizeof scene,
+                 "camera { center = {0, 0}, height = 4 }\n"
+                 "body { type = 'static', color = '#d03020', box { 4, 0.2 }, at = {0, 1} %s }\n",
+                 i == 0 ? "" : ", one_way = {0, 1}");
+        write_text("shelf.lua", scene);
+        expect_code("\"$P\" render shelf.lua --size 320x180 -o shelf.png", 0);
+        share[i] = coloured("shelf.png");
+    }
+    assert_true(share[1] > 1.02 * share[0] && share[1] < 1.5 * share[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_moves_is_in_the_picture),
+        cmocka_unit_test(a_one_way_platform_has_a_sign),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }
