@@ -1,15 +1,17 @@
 // labels.c - names of bodies, placed where they can be read.
 //
 // A name goes inside its body if it fits, else above, right, below or left of it; the first place
-// that is inside the picture and free of other names and of other bodies wins, and a name without
-// a place is left out. Large bodies choose first, so that small neighbours give way.
+// that is inside the picture and free of other names and of other bodies wins. A name without a place
+// tries smaller letters, and is left out at last. Large bodies choose first, so that small neighbours give way.
 // Cost: O(names^2 + names * shapes), names bounded by names_max.
 #include "internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { names_max = 256, size_px = 13 };
+enum { names_max = 256 };
+
+static const int sizes_px[] = { 13, 10, 8 };
 
 static const double halo_lightness = 0.55; // share of paper in the halo on a body
 
@@ -161,19 +163,31 @@ static bool find_place(const plr_painter *painter, const name *entry, double wid
     return false;
 }
 
+// The largest letters for which there is a place; 0: there is none.
+static int size_of(const plr_painter *painter, const name *entry, const char *string,
+                   const place *taken, size_t count, place *found)
+{
+    for (size_t i = 0; i < sizeof sizes_px / sizeof *sizes_px; i++) {
+        const int size = (int)lround(sizes_px[i] * painter->ui);
+        const double width = plr_text_width(painter->text, PLR_FONT_REGULAR, size, string);
+        if (find_place(painter, entry, width, 1.15 * size, taken, count, found)) {
+            return size;
+        }
+    }
+    return 0;
+}
+
 // Each name in turn where there is room left. Apart from who sorts them, or both lists would be in one frame.
 static __attribute__((noinline)) void draw_names(plr_painter *painter, const name *names,
                                                  size_t count)
 {
     place taken[names_max];
     size_t placed = 0;
-    const int size = (int)lround(size_px * painter->ui);
-    const double height = 1.15 * size;
     for (size_t i = 0; i < count; i++) {
         const char *string = plr_frame_text(painter->frame, names[i].body->label);
-        const double width = plr_text_width(painter->text, PLR_FONT_REGULAR, size, string);
         place *spot = &taken[placed];
-        if (!find_place(painter, &names[i], width, height, taken, placed, spot)) {
+        const int size = size_of(painter, &names[i], string, taken, placed, spot);
+        if (size == 0) {
             continue;
         }
         placed++;
