@@ -1,5 +1,6 @@
 // test_liquid_ask.c - the liquid, asked: how full it is at a place and how it flows there, by a sum over all particles;
 // where rays meet its surface; whom it touches, what that weighs, and that nobody is told twice.
+// PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,7 @@
 // test_liquid_motion.c - the liquid against closed forms and published data: a column at rest, volume after sloshing, a dam break
 // (Martin & Moyce 1952), communicating vessels, turning vortices. What was measured stands in
 // src/liquid/DECISIONS.md.
+// PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,7 @@
 /// trials.h - which random cases a generated test tries. All of `make test` takes minutes so; before an issue closes:
 ///
-///     make test TRIALS=10                                  ten times as many of each (any factor above 0)
+///     make test TRIALS=10                                  ten times as many of each (any factor above 0); from 3 on long tests
+///                                                          in all precisions, too (PLUMB_LONG in tools/make/test.mk)
 ///     FIRST=137 COUNT=1 build/tests/determinism/test_mixed  one of them
 #ifndef HARNESS_TRIALS_H
 #define HARNESS_TRIALS_H
@@ -33,10 +34,12 @@ static inline double trials_asked(const char *name, double otherwise)
     return value;
 }
 
-/// How many, for tests that draw all cases from one stream of random numbers.
+/// How many, for tests that draw all cases from one stream of random numbers: in float, the default, all, in double and in the far
+/// build the first third of them, for what these add is their precision.
 static inline uint32_t trials_count(uint32_t usual)
 {
-    const double count = trials_asked("COUNT", usual * trials_asked("TRIALS", 1));
+    const double share = PLUMB_IS_FAR || sizeof(plumb_real) > sizeof(float) ? 1.0 / 3 : 1;
+    const double count = trials_asked("COUNT", usual * share * trials_asked("TRIALS", 1));
     return count < 1 ? 1 : (uint32_t)count;
 }
 

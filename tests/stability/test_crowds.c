@@ -1,5 +1,6 @@
 // test_crowds.c - crowds of all shapes, masses and joints in a box, at default settings: nothing gives them energy, so none rises;
 // nobody leaves the box or is lost.
+// PLUMB_LONG
 #include "harness/near.h"
 #include "harness/sim.h"
 #include "harness/trials.h"

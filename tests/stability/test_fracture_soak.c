@@ -1,5 +1,6 @@
 // test_fracture_soak.c - a box full of bodies that break, are cut, merge and tumble for long: mass stays, all stays finite and in the box,
 // nothing is thrown, memory stays flat, and twice the same bits.
+// PLUMB_LONG
 #include "harness/heap.h"
 #include "harness/near.h"
 #include "harness/trials.h"

@@ -1,4 +1,5 @@
 // test_soak.c - some thousand steps of the soak (harness/soak.h): `make soak` takes a million.
+// PLUMB_LONG
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
 // test_soft_bystanders.c - soft bodies move as they do in a world of their own, to the bit, whatever soft bodies hang, lie and fall
 // 300 m away, whether they were made before or after them.
+// PLUMB_LONG
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
 // test_soft_sleep.c - soft bodies fall asleep with what they hold and touch, lie still, wake by all that concerns them, and end
 // where they would have without sleep. Scenes and disturbances are drawn by a seed.
+// PLUMB_LONG
 #include "harness/sim.h"
 #include "harness/trials.h"
 

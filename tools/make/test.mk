@@ -13,11 +13,15 @@ FUZZ_SRC    := $(sort $(wildcard tests/fuzz/fuzz_*.c))
 BENCH_SRC   := $(wildcard tests/bench/*.c)
 HARNESS_SRC := $(filter-out tests/harness/engine_% tests/harness/peer% tests/harness/main.c,$(wildcard tests/harness/*.c))
 
-# Built and run in double precision as well, unless the file says PLUMB_FLOAT_ONLY.
+# Built and run in double precision as well, unless the file says PLUMB_FLOAT_ONLY, or PLUMB_LONG.
 DOUBLE_KINDS := unit analytic stability api determinism
 DOUBLE_SRC   := $(filter $(DOUBLE_KINDS:%=tests/%/%),$(TEST_SRC))
 ifneq ($(DOUBLE_SRC),)
 DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_FLOAT_ONLY $(DOUBLE_SRC)),$(DOUBLE_SRC))
+# What takes long and asks nothing of the precision says PLUMB_LONG: in float always, in the others with TRIALS of 3 and more.
+ifeq ($(shell awk 'BEGIN { print ($(or $(TRIALS),1) >= 3) }'),0)
+DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_LONG $(DOUBLE_SRC)),$(DOUBLE_SRC))
+endif
 endif
 
 # Built and run in the far build.
