@@ -50,6 +50,9 @@ typedef struct plumb_joint_desc {
     plumb_vec2 ground_b;       ///< [m] pulley: the wheel of B's rope, on the world
     plumb_vec2 axis;           ///< prismatic, wheel: direction of the value, any length; {0}: x (wheel: up).
                                ///< gear: {0}: turns of both; else B's travel along it (rack)
+    plumb_real reference;      ///< [rad] or [m] revolute, prismatic, wheel: the value as things are when the joint is made, from
+                               ///< which limits, spring and plumb_joint_value count: 0.5 of a door that stands open by that.
+                               ///< Of a slider the anchor on A is so far behind that on B
     bool enable_limit;         ///< lower <= value <= upper; distance: instead of the rod
     plumb_real lower, upper;   ///< [rad] or [m] lower <= upper; distance: >= 0
     plumb_real restitution;    ///< [-] 0 to 1 of the limit: share of the rate at which the value meets a bound with which it
@@ -161,7 +164,7 @@ PLUMB_API plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint 
 PLUMB_API plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
                                             plumb_joint_desc *desc);
 /// The joint's coordinate now. Revolute, weld, motor, friction, ratchet: [rad] turn of B relative to A
-/// since the joint was made, full turns included. Prismatic, wheel: [m] travel along the axis.
+/// since the joint was made, full turns included. Prismatic, wheel: [m] travel along the axis. `reference` is added.
 /// Distance, mouse: [m] length. Gear, pulley: the sum that is kept, less what it was. Cable: [m] what is free between the
 /// rims and what they have wound on since it was made: `length` where it is taut, less where it is slack.
 PLUMB_API plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint);
@@ -198,7 +201,7 @@ typedef struct plumb_joint_memory {
     plumb_vec2 axis;               ///< unit, in A's frame; {0}: the kind has none. Cable: its free run as it was made
     plumb_vec2 offset;             ///< [m] motor: where B's anchor is to be, in A's frame. Cable: x: what has slipped
                                    ///< [m], y: 1 where no line touches both rims, else 0
-    plumb_real start_a, start_b;   ///< [rad] angles of the bodies when the joint was made
+    plumb_real start_a, start_b;   ///< [rad] angles of the bodies where the value is 0
     int32_t turns_a, turns_b;      ///< full turns of each since
     plumb_real kept;               ///< gear, pulley: the sum that is kept; ratchet: [rad] its tooth; cable: [rad] by which
                                    ///< its free run has turned

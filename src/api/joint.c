@@ -57,6 +57,7 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
         { "ground_a", is_set(d->ground_a), PL_JOINT_GROUNDS },
         { "ground_b", is_set(d->ground_b), PL_JOINT_GROUNDS },
         { "axis", is_set(d->axis), PL_JOINT_AXIS },
+        { "reference", d->reference != 0, PL_JOINT_REFERENCE },
         { "enable_limit", d->enable_limit, PL_JOINT_LIMIT },
         { "lower", d->lower != 0, PL_JOINT_LIMIT },
         { "upper", d->upper != 0, PL_JOINT_LIMIT },
@@ -190,6 +191,25 @@ static plumb_vec2 place_of(const plumb_world *world, const plumb_joint_desc *d, 
     return plumb_body_center(world, plumb_is_null(body) ? other : body);
 }
 
+// Where the value is 0: a slider's line begins so far before B, a hinge has turned by so much.
+static plumb_vec2 zero_of(const plumb_joint_desc *d, plumb_vec2 anchor)
+{
+    const bool slides = (pl_joint_classes[d->kind]->has & PL_JOINT_TRAVELS) != 0;
+    return slides ? plumb_vec2_add_scaled(anchor, -d->reference, d->axis) : anchor;
+}
+
+static void turn_by_reference(pl_joint *j)
+{
+    if ((pl_joint_classes[j->desc.kind]->has & PL_JOINT_RADIANS) == 0) {
+        return;
+    }
+    if (plumb_is_null(j->b.body)) {
+        j->a.start += (double)j->desc.reference;
+    } else {
+        j->b.start -= (double)j->desc.reference;
+    }
+}
+
 static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
 {
     const plumb_joint none = PLUMB_NULL_INIT;
@@ -199,9 +219,11 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     bool two = (kind->has & PL_JOINT_TWO_ANCHORS) != 0;
     memset(j, 0, sizeof *j); // padding, too: it is saved
     pl_joint_copy_desc(&j->desc, d);
-    attach(world, slot, &j->a, d->body_a, place_of(world, d, d->body_a, d->body_b, d->anchor));
+    attach(world, slot, &j->a, d->body_a,
+           zero_of(d, place_of(world, d, d->body_a, d->body_b, d->anchor)));
     attach(world, slot, &j->b, d->body_b,
            place_of(world, d, d->body_b, d->body_a, two ? d->anchor_b : d->anchor));
+    turn_by_reference(j);
     const plumb_vec2 axis = kind->direction != NULL ? kind->direction(world, d) : d->axis;
     j->axis = plumb_is_null(d->body_a) ? axis : plumb_body_local_vector(world, d->body_a, axis);
     j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);

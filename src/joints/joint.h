@@ -27,7 +27,8 @@ enum {
     PL_JOINT_TORQUE = 16384,
     PL_JOINT_REST = 32768,
     PL_JOINT_CENTRAL = 65536, // acts at the centres of its bodies, whatever anchor it was given
-    PL_JOINT_RADII = 131072
+    PL_JOINT_RADII = 131072,
+    PL_JOINT_REFERENCE = 262144
 };
 
 typedef struct pl_joint_class {

@@ -12,7 +12,8 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
 
 const pl_joint_class pl_joint_revolute = {
     .name = "revolute",
-    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_REST | PL_JOINT_RADIANS,
+    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_REST | PL_JOINT_RADIANS |
+           PL_JOINT_REFERENCE,
     .rows = rows,
     .value = pl_value_turn,
 };

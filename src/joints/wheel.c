@@ -22,7 +22,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
 const pl_joint_class pl_joint_wheel = {
     .name = "wheel",
     .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_TRAVELS | PL_JOINT_SPINS |
-           PL_JOINT_REST | PL_JOINT_AXIS,
+           PL_JOINT_REST | PL_JOINT_AXIS | PL_JOINT_REFERENCE,
     .check = check,
     .rows = rows,
     .value = pl_value_travel,

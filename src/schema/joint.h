@@ -41,6 +41,8 @@
       "prismatic, wheel: direction of the value; gear: B's travel along it")                        \
     R(X, STATE, JOINT_KIND, kind, UNSAID, PL_JOINT_KIND_CHOICES, CHOICES(PL_JOINT_KIND_LAST),       \
       PLUMB_REVOLUTE, NO_ZERO, "what it does")                                                      \
+    R(X, OWN, REAL, reference, UNSAID, "rad or m", FROM(-1e6, 1e6), 0, NO_ZERO,                     \
+      "value as things are when it is made")                                                        \
     R(X, STATE, BOOL, enable_limit, UNSAID, "1", CHOICES(1), 0, NO_ZERO,                            \
       "lower <= value <= upper")                                                                    \
     R(X, STATE, REAL, lower, UNSAID, "rad or m", ANY, 0, NO_ZERO, "least value")                    \

@@ -152,7 +152,7 @@ typedef struct sc_joint_def {
     char name[SC_NAME_SIZE];
     sc_end a, b;
     double at[2], at_a[2], at_b[2], wheel_a[2], wheel_b[2], axis[2], target[2], offset[2];
-    double limits[2], restitution, angle, length, ratio, pitch, radius_a, radius_b;
+    double reference, limits[2], restitution, angle, length, ratio, pitch, radius_a, radius_b;
     double max_force, max_torque;
     PL_JOINT_BOUND_ROWS(SC_MEMBER, )
     bool collide, hidden;

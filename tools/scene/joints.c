@@ -199,6 +199,7 @@ static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
         .ground_a = real2(d->wheel_a),
         .ground_b = real2(d->wheel_b),
         .axis = real2(d->axis),
+        .reference = (plumb_real)d->reference,
         .enable_limit = GIVEN(d, limits),
         .lower = (plumb_real)d->limits[0],
         .upper = (plumb_real)d->limits[1],

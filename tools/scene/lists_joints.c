@@ -56,6 +56,7 @@ const sc_list sc_list_state = { "state", state_rows, COUNT(state_rows) };
 #define ROW_MOTOR        { "motor",   SC_RECORD, AT(T, motor),   0, 0, "motor", 0, 0 }
 #define ROW_NAME         { "name",    SC_STRING, AT(T, name),    0, 0, NULL, 0, 0 }
 #define ROW_RATIO(low, flags) { "ratio", SC_NUMBER, AT(T, ratio), low, 1e6, "1", 0, flags }
+#define ROW_REFERENCE(unit) { "reference", SC_NUMBER, AT(T, reference), -1e6, 1e6, unit, 0, 0 }
 #define ROW_RESTITUTION  { "restitution", SC_NUMBER, AT(T, restitution), 0, 1, "1", 0, 0 }
 #define ROW_SPRING       { "spring",  SC_RECORD, AT(T, spring),  0, 0, "spring", 0, 0 }
 #define ROW_STATE        { "state",   SC_RECORD, AT(T, state),   0, 0, "state", 0, 0 }
@@ -64,11 +65,11 @@ const sc_list sc_list_state = { "state", state_rows, COUNT(state_rows) };
 #define ROWS_BREAK PL_JOINT_BOUND_ROWS(SC_ROW, ) ROW_COLLIDE, ROW_HIDDEN
 #define ROWS_SLIDER                                                                                 \
     ROW_A, ROW_AT, ROW_AXIS, ROW_B, ROWS_BREAK, ROW_LIMITS(-BIG, "m"), ROW_MOTOR, ROW_NAME,          \
-        ROW_RESTITUTION, ROW_SPRING, ROW_STATE
+        ROW_REFERENCE("m"), ROW_RESTITUTION, ROW_SPRING, ROW_STATE
 
 static const sc_field revolute_rows[] = {
     ROW_A, ROW_AT, ROW_B, ROWS_BREAK, ROW_LIMITS(-BIG, "rad"), ROW_MOTOR, ROW_NAME,
-    ROW_RESTITUTION, ROW_SPRING, ROW_STATE,
+    ROW_REFERENCE("rad"), ROW_RESTITUTION, ROW_SPRING, ROW_STATE,
 };
 static const sc_field prismatic_rows[] = { ROWS_SLIDER };
 static const sc_field weld_rows[] = { ROW_A, ROW_AT, ROW_B, ROWS_BREAK, ROW_NAME, ROW_SPRING, ROW_STATE };
@@ -117,7 +118,7 @@ static const sc_field cable_rows[] = {
 #define GENERAL_ROWS                                                                                \
     ((const sc_field[]){ ROW_A, ROW_AT, ROW_AXIS, ROW_B, ROWS_BREAK, ROW_LIMITS(-BIG, "rad or m"),   \
                          ROW_MAX_FORCE, ROW_MAX_TORQUE, ROW_MOTOR, ROW_NAME, ROW_RATIO(-1e6, 0),     \
-                         ROW_RESTITUTION, ROW_SPRING, ROW_STATE })
+                         ROW_REFERENCE("rad or m"), ROW_RESTITUTION, ROW_SPRING, ROW_STATE })
 #define OWN_revolute  , revolute_rows
 #define OWN_prismatic , prismatic_rows
 #define OWN_weld      , weld_rows
