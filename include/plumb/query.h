@@ -1,9 +1,10 @@
 /// query.h - questions to a world: rays, shape casts, overlaps, nearest points. They use the same grids as the
 /// broad phase and see every shape where it is now. Not to be called during a step, except from systems.
 ///
-/// A world that is asked goes on, bit for bit, as one that is not. The first question after a step, or after
-/// shapes came, went or were moved, looks through all that moves; where that is not where the step has filed it,
-/// the grids are filed anew for the questions: O(shapes). The next ones are free of that.
+/// A world that is asked goes on, bit for bit, as one that is not. The first question after a step looks through all
+/// that moves; where that is not where the step has filed it, the grids are filed anew for the questions: O(shapes). The
+/// next ones are free of that. Shapes that come, go or are moved between questions are kept apart, up to 64 convex pieces
+/// (a few us a question); with more, all is filed anew.
 #ifndef PLUMB_QUERY_H
 #define PLUMB_QUERY_H
 

@@ -329,10 +329,11 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
                 .reach = (double)desc->radius + (double)desc->falloff };
     place_rays(&b);
     const pl_box near = pl_query_box_at(desc->position, b.reach);
-    pl_world_query(world, pl_query_grid_of(world, PL_QUERY_MOVING), near, collect, &q);
-    const pl_grid *resting = pl_query_grid_of(world, PL_QUERY_RESTING);
-    if (resting->entry_count > 0) {
-        pl_world_query(world, resting, near, collect, &q);
+    const pl_grid *grids[PL_QUERY_GRIDS];
+    q.filter.ignore_static = true;
+    const int count = pl_query_grids(&q, grids);
+    for (int i = 0; i < count; ++i) {
+        pl_world_query(world, grids[i], near, collect, &q);
     }
     pl_query_one_per_shape(&q);
     pl_buffer list = { 0 };

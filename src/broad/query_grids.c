@@ -78,33 +78,63 @@ static bool file_fixed(plumb_world *world)
            file(world, PL_QUERY_FIXED, list->data, count);
 }
 
+// Those of the strays that are still there, in a grid of their own. What the other grids say of them is where they were: a query
+// asks each piece by its pose, so it hears of them twice at most, or not at all (pl_query_sees).
+static bool file_strays(plumb_world *world)
+{
+    pl_query_grid_set *set = &world->query_grids;
+    uint32_t there[PL_QUERY_STRAYS_MOST], count = 0;
+    for (uint32_t i = 0; i < set->stray_count; ++i) {
+        const uint32_t p = ((const uint32_t *)set->strays.data)[i];
+        there[count] = p;
+        count += world->pieces.kind[p] != PL_PIECE_FREE && world->pieces.moving[p] != PL_OUT;
+    }
+    set->strays_filed = reserve(world) && file(world, PL_QUERY_STRAYS, there, count);
+    return set->strays_filed;
+}
+
 bool pl_query_grids_update(plumb_world *world)
 {
     pl_query_grid_set *set = &world->query_grids;
     if (set->fresh) {
-        return true;
+        return set->strays_filed || file_strays(world);
     }
+    set->stray_count = 0;
+    set->strays_filed = true;
     bool *owns = set->owns;
     owns[PL_QUERY_MOVING] = !moving_holds(world);
     owns[PL_QUERY_RESTING] = !resting_holds(world);
     owns[PL_QUERY_FIXED] = !fixed_holds(world);
     bool any = owns[PL_QUERY_MOVING] || owns[PL_QUERY_RESTING] || owns[PL_QUERY_FIXED];
     set->fresh =
-        !any ||
-        (reserve(world) &&
-         (!owns[PL_QUERY_MOVING] ||
-          file(world, PL_QUERY_MOVING, pl_moving(world), world->moving_count)) &&
-         (!owns[PL_QUERY_RESTING] ||
-          file(world, PL_QUERY_RESTING, pl_resting(&world->sleep), world->sleep.resting_count)) &&
-         (!owns[PL_QUERY_FIXED] || file_fixed(world)));
+        pl_buffer_reserve(&world->memory, &set->strays, PL_QUERY_STRAYS_MOST * sizeof(uint32_t)) &&
+        (!any ||
+         (reserve(world) &&
+          (!owns[PL_QUERY_MOVING] ||
+           file(world, PL_QUERY_MOVING, pl_moving(world), world->moving_count)) &&
+          (!owns[PL_QUERY_RESTING] ||
+           file(world, PL_QUERY_RESTING, pl_resting(&world->sleep), world->sleep.resting_count)) &&
+          (!owns[PL_QUERY_FIXED] || file_fixed(world))));
     return set->fresh;
+}
+
+bool pl_query_has_strays(const plumb_world *world)
+{
+    return world->query_grids.stray_count > 0;
+}
+
+bool pl_query_grids_file_all(plumb_world *world)
+{
+    world->query_grids.fresh &= !pl_query_has_strays(world);
+    return pl_query_grids_update(world);
 }
 
 const pl_grid *pl_query_grid_of(const plumb_world *world, pl_query_grid which)
 {
     const pl_broad *broad = &world->broad;
     const pl_grid *filed[] = { &broad->moving, &broad->resting, &broad->fixed };
-    return world->query_grids.owns[which] ? &own_grids(&world->query_grids)[which] : filed[which];
+    const bool is_own = which == PL_QUERY_STRAYS || world->query_grids.owns[which];
+    return is_own ? &own_grids(&world->query_grids)[which] : filed[which];
 }
 
 void pl_query_grids_free(pl_memory *memory, pl_query_grid_set *set)
@@ -115,5 +145,6 @@ void pl_query_grids_free(pl_memory *memory, pl_query_grid_set *set)
     pl_buffer_free(memory, &set->grids);
     pl_buffer_free(memory, &set->boxes);
     pl_buffer_free(memory, &set->list);
+    pl_buffer_free(memory, &set->strays);
     *set = (pl_query_grid_set){ 0 };
 }

@@ -8,9 +8,14 @@
 #include "broad/grid.h"
 
 // Brings the grids up to date with where every piece is now. Free from the second time on, until something changes. False when out of
-// memory. Cost: O(moving pieces); O(pieces) to file those that left their boxes, that came, went or were moved.
+// memory. Cost: O(moving pieces), and O(pieces) to file them where they have left their boxes: once a step, and once for each
+// PL_QUERY_STRAYS_MOST pieces that came, went or were moved since. For fewer, O(these).
 bool pl_query_grids_update(plumb_world *world);
-// The grid to look into; after pl_query_grids_update.
+// The same, with nothing astray: for what goes through the grids and wants each piece once, where it is. O(pieces) where any was.
+bool pl_query_grids_file_all(plumb_world *world);
+// Whether there are any beside the grids that have them where they were; after pl_query_grids_update.
+bool pl_query_has_strays(const plumb_world *world);
+// The grid to look into; after pl_query_grids_update. That of the strays only where there are any.
 const pl_grid *pl_query_grid_of(const plumb_world *world, pl_query_grid which);
 // Whether the step's own grids hold all that there is, where it is now; that of what sleeps may still name pieces that sleep no
 // more. Cost: O(moving pieces).

@@ -350,7 +350,7 @@ plumb_result plumb_draw(plumb_world *world, const plumb_draw_calls *calls,
     PL_TRY(check(world, __func__, desc));
     pl_drawing d = { .world = world, .calls = *calls, .desc = *desc };
     resolve(&d);
-    if (!pl_query_grids_update(world)) {
+    if (!pl_query_grids_file_all(world)) {
         return pl_fail_memory(world, __func__);
     }
     const plumb_result r = draw_all(&d);

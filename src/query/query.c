@@ -128,23 +128,27 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS
     if (!q->filter.ignore_static) {
         grids[count++] = pl_query_grid_of(q->world, PL_QUERY_FIXED);
     }
+    if (pl_query_has_strays(q->world)) {
+        grids[count++] = pl_query_grid_of(q->world, PL_QUERY_STRAYS);
+    }
     return count;
 }
 
-// The grid of sleeping pieces may name one that woke, which another grid has, or that is gone, out of the simulation or
-// static by now.
-static bool is_there(const plumb_world *world, uint32_t piece, bool ignore_static)
+// The grid of sleeping pieces may name one that woke, which another grid has, and every grid one that is gone, out of the
+// simulation or of another type by now; that of the strays has all types.
+static bool is_there(const plumb_world *world, uint32_t piece, const plumb_query_filter *f)
 {
     const uint32_t place = world->pieces.moving[piece];
     return world->pieces.kind[piece] != PL_PIECE_FREE && place != PL_OUT &&
-           !(place == PL_NONE && ignore_static);
+           !(place == PL_NONE ? f->ignore_static : f->ignore_dynamic);
 }
 
 bool pl_query_sees(const pl_query *q, uint32_t piece)
 {
     const plumb_world *world = q->world;
     const plumb_query_filter *f = &q->filter;
-    if (world->sleep.gone > 0 && !is_there(world, piece, f->ignore_static)) {
+    const bool may_be_gone = world->sleep.gone > 0 || pl_query_has_strays(world);
+    if (may_be_gone && !is_there(world, piece, f)) {
         return false;
     }
     if (world->sensor_pieces + world->filtered_pieces > 0 || f->mask != 0) {

@@ -47,7 +47,7 @@ plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *functio
                             const plumb_query_filter *filter);
 
 // The grids that a filter can see into, in the order in which they are to be asked; returns how many.
-#define PL_QUERY_GRIDS 3
+#define PL_QUERY_GRIDS 4
 int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS]);
 
 // False for the pieces of the ignored body, sensors, categories that are not asked for. All but

@@ -51,11 +51,37 @@ static uint32_t take_slot(plumb_world *world)
     return slot;
 }
 
+// Queries find it among the strays until all is filed anew.
+static void stray(plumb_world *world, uint32_t slot)
+{
+    pl_query_grid_set *set = &world->query_grids;
+    if (!set->fresh) {
+        return;
+    }
+    uint32_t *strays = set->strays.data, i = 0;
+    while (i < set->stray_count && strays[i] != slot) {
+        ++i;
+    }
+    set->strays_filed = false;
+    if (i == PL_QUERY_STRAYS_MOST) {
+        set->fresh = false;
+    } else if (i == set->stray_count) {
+        strays[set->stray_count++] = slot;
+    }
+}
+
+void pl_pieces_stray(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        stray(world, p);
+    }
+}
+
 static void enlist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t slot)
 {
     list[*count] = slot;
     world->pieces.moving[slot] = (*count)++;
-    world->query_grids.fresh = false;
 }
 
 // The last of the list fills the gap.
@@ -66,7 +92,6 @@ static void delist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t
     list[place] = last;
     world->pieces.moving[last] = place;
     world->pieces.moving[slot] = PL_OUT;
-    world->query_grids.fresh = false;
 }
 
 static void enlist_resting(plumb_world *world, uint32_t slot)
@@ -101,12 +126,12 @@ static void file(plumb_world *world, uint32_t slot, uint32_t row)
 {
     pl_pieces *pieces = &world->pieces;
     pl_piece_lose_box(world, slot);
+    stray(world, slot);
     if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
         pieces->moving[slot] = PL_OUT;
     } else if (world->bodies.type[row] == PLUMB_STATIC) {
         pieces->moving[slot] = PL_NONE;
         world->static_dirty = true;
-        world->query_grids.fresh = false;
     } else if (pl_row_is_asleep(world, row)) {
         enlist_resting(world, slot);
         world->sleep.boxes_stale = true;
@@ -117,9 +142,9 @@ static void file(plumb_world *world, uint32_t slot, uint32_t row)
 
 static void unfile(plumb_world *world, uint32_t slot)
 {
+    stray(world, slot);
     if (world->pieces.moving[slot] == PL_NONE) {
         world->static_dirty = true;
-        world->query_grids.fresh = false;
     } else if ((world->pieces.flags[slot] & PL_PIECE_ASLEEP) != 0) {
         delist_resting(world, slot);
         pl_sensing_note_rest(world);
@@ -141,6 +166,7 @@ void pl_pieces_refile(plumb_world *world, uint32_t row)
 
 void pl_piece_rest(plumb_world *world, uint32_t piece)
 {
+    stray(world, piece);
     delist(world, pl_moving(world), &world->moving_count, piece);
     enlist_resting(world, piece);
     // A piece alone in the world, or put to sleep between steps, may never have had a fat box.
@@ -149,6 +175,7 @@ void pl_piece_rest(plumb_world *world, uint32_t piece)
 
 void pl_piece_move(plumb_world *world, uint32_t piece)
 {
+    stray(world, piece);
     delist_resting(world, piece);
     enlist(world, pl_moving(world), &world->moving_count, piece);
 }

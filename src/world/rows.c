@@ -250,7 +250,7 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     b->center_y[row] = b->y[row] + dy;
     b->residual_x[row] = b->residual_y[row] = 0;
     write_pose(world, row, dx, dy);
-    world->query_grids.fresh = false;
+    pl_pieces_stray(world, row);
     if (pl_is_wrapped(world)) {
         pl_wrap_row(world, row);
     }

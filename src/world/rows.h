@@ -90,6 +90,8 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
 // Takes the pieces of a body out of the grid they are in and files them where its type and its
 // being enabled want them. Needs no memory.
 void pl_pieces_refile(plumb_world *world, uint32_t row);
+// Of a body that was moved between steps: queries look for its pieces where they are now.
+void pl_pieces_stray(plumb_world *world, uint32_t row);
 // Puts the pieces of a shape behind those of another in the list of their body: shapes are told in the order of that list.
 void pl_pieces_move_behind(plumb_world *world, uint32_t first, uint32_t other);
 // Removes the pieces of a shape, and its share of the material's users.

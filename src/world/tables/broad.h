@@ -56,16 +56,23 @@ typedef enum pl_query_grid {
     PL_QUERY_MOVING,
     PL_QUERY_RESTING,
     PL_QUERY_FIXED,
+    PL_QUERY_STRAYS, // what came or was moved since the others were brought up to date; these may name it too
     PL_QUERY_GRID_COUNT
 } pl_query_grid;
 
+// So many may stray before all is filed anew, at 20 ns a piece of the world: between a query and the next a game makes or moves few.
+#define PL_QUERY_STRAYS_MOST 64
+
 typedef struct pl_query_grid_set {
-    bool fresh; // nothing has moved, come or gone since it was brought up to date
+    bool fresh; // nothing but the strays has moved, come or gone since it was brought up to date
+    bool strays_filed;
+    uint32_t stray_count;
     bool owns
         [PL_QUERY_GRID_COUNT]; // the step's grid does not hold: the queries have one of their own
     pl_buffer grids;           // pl_grid [PL_QUERY_GRID_COUNT], made when the first one is needed
     pl_buffer boxes;           // pl_box a piece slot: tight boxes of what is in grids of its own
     pl_buffer list;            // uint32_t pieces to file
+    pl_buffer strays;          // uint32_t [PL_QUERY_STRAYS_MOST] pieces, each once; those that are gone too
 } pl_query_grid_set;
 
 #endif
