@@ -163,7 +163,8 @@ typedef struct plumb_contact {
 /// Touching contacts after the last step: writes up to `capacity`, returns how many there are.
 /// Separations are those of the narrow phase at the beginning of the step moved along with the bodies.
 PLUMB_API int plumb_world_contacts(const plumb_world *world, plumb_contact *contacts, int capacity);
-/// The same for one body. O(contacts of what is awake), of a body that sleeps O(those of its island).
+/// The same for one body. Cost: its contacts, and those of its island where it sleeps; as long as no step has ended since bodies were
+/// first asked, all that touch and are awake (2 ns each).
 PLUMB_API int plumb_body_contacts(const plumb_world *world, plumb_body body,
                                   plumb_contact *contacts, int capacity);
 

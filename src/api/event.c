@@ -7,6 +7,7 @@
 // Reads: pairs, manifolds, centres, solver bodies (how far each turned in the step). Writes:
 // nothing. Cost: events O(1); contacts O(pairs).
 #include "api/listed.h"
+#include "event/event.h"
 #include "solver/solver.h"
 #include "world/island.h"
 #include "plumb/event.h"
@@ -197,8 +198,13 @@ static void list_awake(listing *l)
     const plumb_world *world = l->world;
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const uint32_t made = world->narrow.manifold_count + world->narrow.borne_count;
-    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
-        const pl_pair *pair = &pairs[i];
+    const uint32_t *places = NULL;
+    uint32_t count = world->broad.pairs.count;
+    if (l->row != PL_NONE) {
+        (void)pl_contact_index_of(world, world->bodies.entity[l->row], &places, &count);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        const pl_pair *pair = &pairs[places != NULL ? places[i] : i];
         // Pairs of a step without collision still name manifolds that are gone.
         if (is_of_row(l, pair) && (pair->flags & PL_PAIR_TOUCHING) && pair->manifold < made &&
             is_intact(world, pair)) {
@@ -229,10 +235,10 @@ int plumb_body_contacts(const plumb_world *world, plumb_body body, plumb_contact
     }
     listing l = { world, row, contacts, capacity, 0 };
     const uint32_t island = world->bodies.island[row];
+    list_awake(&l); // what was put to sleep since the last step has them there
     if (island != PL_NONE) {
         list_island(&l, island);
     } else {
-        list_awake(&l);
         list_sleepers_at(&l);
     }
     return l.count;

@@ -126,7 +126,7 @@ static size_t component_bytes(const pl_components *all)
 static size_t query_grid_bytes(const pl_query_grid_set *set)
 {
     const pl_grid *grids = set->grids.data;
-    size_t bytes = BUFFERS(&set->grids, &set->boxes, &set->list);
+    size_t bytes = BUFFERS(&set->grids, &set->boxes, &set->list, &set->strays);
     for (int i = 0; grids != NULL && i < PL_QUERY_GRID_COUNT; ++i) {
         PART(bytes, pl_grid, grids[i], pl_grid_free(&dry, &copy));
     }
@@ -154,6 +154,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     PART(events, pl_parts, w->parts, pl_parts_free(&dry, &copy));
     PART(events, pl_pending_hits, w->pending_hits, pl_pending_hits_free(&dry, &copy));
     PART(events, pl_sensing, w->sensing, pl_sensing_free(&dry, &copy));
+    PART(events, pl_contact_index, w->contact_index, pl_contact_index_free(&dry, &copy));
     tell(out, "queries", query_grid_bytes(&w->query_grids), 0);
     tell(out, "characters", characters, 0);
     tell(out, "liquid", liquid, w->liquid.count);

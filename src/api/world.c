@@ -217,6 +217,7 @@ static void free_world(plumb_world *world)
     pl_parts_free(&memory, &world->parts);
     pl_pending_hits_free(&memory, &world->pending_hits);
     pl_sensing_free(&memory, &world->sensing);
+    pl_contact_index_free(&memory, &world->contact_index);
     pl_sleep_free(&memory, &world->sleep);
     pl_resize(&memory, world, sizeof *world, 0);
 }

@@ -22,6 +22,7 @@
 void pl_events_clear(plumb_world *world)
 {
     world->begin_count = 0;
+    world->contact_index.made = false;
     // What was found to have ended by a step that was refused is still to be told.
     if (world->sleep.events_told) {
         world->end_count = world->hit_count = 0;

@@ -41,6 +41,14 @@ bool pl_sensing_prepare(plumb_world *world);
 void pl_sensing_run(plumb_world *world);
 void pl_sensing_free(pl_memory *memory, pl_sensing *sensing);
 
+// Which contacts each body has, for plumb_body_contacts (contact_index.c). A world that has been asked about several bodies since the
+// last step gets it with the next one; without it all pairs are gone through.
+void pl_contact_index_update(plumb_world *world);
+// The pairs that may touch a body; their number; false: it does not know.
+bool pl_contact_index_of(const plumb_world *world, plumb_body body, const uint32_t **pairs,
+                         uint32_t *count);
+void pl_contact_index_free(pl_memory *memory, pl_contact_index *index);
+
 // Bodies that break (breaking.c): room for those of a step; after motion, who breaks, and what of the blow it gives back.
 bool pl_breaking_prepare(plumb_world *world);
 void pl_breaking_find(plumb_world *world, plumb_real dt);

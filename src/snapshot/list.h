@@ -232,7 +232,7 @@
     ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
     ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
-    LEFT(schedule) LEFT(effects) LEFT(measure) LEFT(watchdog) LEFT(exact) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
+    LEFT(schedule) LEFT(effects) LEFT(measure) LEFT(watchdog) LEFT(exact) LEFT(contact_index) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
     LEFT(checking) LEFT(checked) LEFT(observer) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 

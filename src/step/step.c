@@ -351,6 +351,7 @@ plumb_result pl_step(plumb_world *world, real dt)
         pl_quarantine_finish(world);
     }
     world->sleep.events_told |= result == PLUMB_OK;
+    pl_contact_index_update(world);
     world->rearranged = false;
     return result;
 }

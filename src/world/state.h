@@ -150,6 +150,7 @@ struct plumb_world {
     pl_parts parts;
     pl_pending_hits pending_hits;
     pl_sensing sensing;
+    pl_contact_index contact_index;
     pl_sleep sleep;
 
     pl_buffer checking, checked; // scratch of images that are checked (snapshot/check.c, restore.c)

@@ -35,6 +35,16 @@ typedef struct pl_pending_hits {
     uint32_t lost_count, late_count;
 } pl_pending_hits;
 
+// Which pairs touched each body when the step ended (contact_index.c).
+typedef struct pl_contact_index {
+    pl_buffer starts;    // uint32_t an entity slot and one more: where those of a body begin in `pairs`
+    pl_buffer pairs;     // uint32_t: pairs, each body's in their order
+    uint32_t slots;      // entity slots when it was made
+    uint32_t asked;      // by bodies since the last step
+    uint32_t pair_count; // of all pairs, when it was made
+    bool made;
+} pl_contact_index;
+
 typedef struct pl_overlap {
     uint64_t key; // slots of sensor and shape
     plumb_sensor_event who;
