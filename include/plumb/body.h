@@ -79,7 +79,7 @@ PLUMB_API plumb_body plumb_body_create(plumb_world *world, const plumb_body_desc
 
 /// Reads what the body is now, as a descriptor that would make another like it, without its shapes: `mass` and `inertia`
 /// only where they were given. A time scale of 0 cannot be told so: there 0 means 1. O(1). Errors: E_HANDLE, E_NULL.
-PLUMB_API plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc);
+PLUMB_API plumb_result plumb_body_settings(const plumb_world *world, plumb_body body, plumb_body_desc *desc);
 
 /// Destroys a body, its shapes and its contacts (their end is told after the next step). Errors: E_HANDLE,
 /// E_LOCKED.

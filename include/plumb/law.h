@@ -75,7 +75,7 @@ PLUMB_API plumb_law plumb_law_create(plumb_world *world, const plumb_law_desc *d
 /// Takes it away. Errors: E_HANDLE, E_LOCKED.
 PLUMB_API plumb_result plumb_law_destroy(plumb_world *world, plumb_law law);
 /// What it is. Errors: E_HANDLE, E_NULL.
-PLUMB_API plumb_result plumb_law_get(const plumb_world *world, plumb_law law, plumb_law_desc *desc);
+PLUMB_API plumb_result plumb_law_settings(const plumb_world *world, plumb_law law, plumb_law_desc *desc);
 /// Makes another of it, its kind included. Errors: as plumb_law_create, E_HANDLE.
 PLUMB_API plumb_result plumb_law_set(plumb_world *world, plumb_law law, const plumb_law_desc *desc);
 /// The laws of a world in the order in which they were made: writes up to `capacity`, returns how many there are.

@@ -136,8 +136,8 @@ PLUMB_API plumb_material plumb_material_create(plumb_world *world, const plumb_m
 PLUMB_API plumb_result plumb_material_destroy(plumb_world *world, plumb_material material);
 
 /// Reads a material; null reads the default one. Errors: E_HANDLE, E_NULL.
-PLUMB_API plumb_result plumb_material_get(const plumb_world *world, plumb_material material,
-                                          plumb_material_desc *desc);
+PLUMB_API plumb_result plumb_material_settings(const plumb_world *world, plumb_material material,
+                                               plumb_material_desc *desc);
 
 /// Changes a material; null changes the default one. Friction and restitution hold from the next
 /// step; masses computed from the density are not revised (see plumb_body_reset_mass).

@@ -3,7 +3,7 @@
 ///     plumb_softbody rope = plumb_rope_create(world, &(plumb_rope_desc){ .from = { 0, 5 }, .to = { 4, 5 } });
 ///     plumb_softbody_hold(world, rope, 0, (plumb_body)PLUMB_NULL_INIT, (plumb_vec2){ 0, 5 });
 ///     plumb_softbody_desc now;
-///     plumb_softbody_get(world, rope, &now); // now.nodes[i].position
+///     plumb_softbody_settings(world, rope, &now); // now.nodes[i].position
 ///
 /// A soft body is nodes with mass, and elements between them: edges that pull (and push), bends, triangles of an elastic
 /// sheet, a ring of nodes with gas in it. Stiffness is in physical units and does not depend on the step: in each substep all
@@ -103,8 +103,8 @@ PLUMB_API plumb_softbody plumb_softbody_create(plumb_world *world, const plumb_s
 PLUMB_API plumb_result plumb_softbody_destroy(plumb_world *world, plumb_softbody softbody);
 /// How it is now: the arrays are the world's own, valid until the next step or change of a soft body. Errors: E_NULL,
 /// E_HANDLE.
-PLUMB_API plumb_result plumb_softbody_get(const plumb_world *world, plumb_softbody softbody,
-                                          plumb_softbody_desc *desc);
+PLUMB_API plumb_result plumb_softbody_settings(const plumb_world *world, plumb_softbody softbody,
+                                               plumb_softbody_desc *desc);
 /// All soft bodies, in the order in which they were made: writes up to `capacity`, returns how many there are.
 PLUMB_API int plumb_world_softbodies(const plumb_world *world, plumb_softbody *softbodies,
                                      int capacity);

@@ -169,7 +169,7 @@ static pl_body_settings look(const plumb_world *world, const char *fn, plumb_bod
     }
 PL_BODY_ROWS(PL_ROW_RECORD, RECORD_GETTER)
 
-plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc)
+plumb_result plumb_body_settings(const plumb_world *world, plumb_body body, plumb_body_desc *desc)
 {
     uint32_t row;
     PL_TRY(pl_check_body(world, __func__, body, &row));

@@ -144,7 +144,7 @@ static void make_row(const division *d, pl_child *child)
 {
     plumb_world *world = d->world;
     plumb_body_desc desc;
-    plumb_body_get(world, d->body, &desc);
+    plumb_body_settings(world, d->body, &desc);
     desc.asleep = false;
     desc.velocity = plumb_v2(0, 0);
     desc.angular_velocity = 0;

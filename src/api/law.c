@@ -187,7 +187,7 @@ plumb_result plumb_law_destroy(plumb_world *world, plumb_law law)
     return PLUMB_OK;
 }
 
-plumb_result plumb_law_get(const plumb_world *world, plumb_law law, plumb_law_desc *desc)
+plumb_result plumb_law_settings(const plumb_world *world, plumb_law law, plumb_law_desc *desc)
 {
     uint32_t row;
     PL_TRY(check_law(world, __func__, law, &row));

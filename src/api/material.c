@@ -84,8 +84,8 @@ plumb_result plumb_material_destroy(plumb_world *world, plumb_material material)
     return PLUMB_OK;
 }
 
-plumb_result plumb_material_get(const plumb_world *world, plumb_material material,
-                                plumb_material_desc *desc)
+plumb_result plumb_material_settings(const plumb_world *world, plumb_material material,
+                                     plumb_material_desc *desc)
 {
     uint32_t row;
     PL_TRY(pl_check_material(world, __func__, material, &row));
@@ -114,7 +114,7 @@ plumb_result plumb_material_set(plumb_world *world, plumb_material material,
     PL_TRY(pl_check_material(world, __func__, material, &row));
     PL_TRY(check_desc(world, __func__, desc));
     plumb_material_desc old;
-    PL_TRY(plumb_material_get(world, material, &old));
+    PL_TRY(plumb_material_settings(world, material, &old));
     if (pl_descs_agree(PLUMB_TABLE_MATERIAL, &old, desc)) {
         return PLUMB_OK; // nothing wakes
     }

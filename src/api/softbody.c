@@ -142,8 +142,8 @@ plumb_result plumb_softbody_destroy(plumb_world *world, plumb_softbody softbody)
     return PLUMB_OK;
 }
 
-plumb_result plumb_softbody_get(const plumb_world *world, plumb_softbody softbody,
-                                plumb_softbody_desc *desc)
+plumb_result plumb_softbody_settings(const plumb_world *world, plumb_softbody softbody,
+                                     plumb_softbody_desc *desc)
 {
     uint32_t row;
     PL_TRY(check_softbody(world, __func__, softbody, &row));

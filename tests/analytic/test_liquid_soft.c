@@ -137,7 +137,7 @@ static void water_presses_what_lies_deep_together(void **state)
     plumb_liquid_remove(w, sim_vec(1.05, -1), sim_vec(1.97, 0.96));
     sim_run(w, 600, HZ60);
     plumb_softbody_desc d;
-    assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(w, s, &d), PLUMB_OK);
     double area = 0;
     for (int i = 0; i < d.triangle_count; ++i) {
         const plumb_softbody_triangle *t = &d.triangles[i];

@@ -107,7 +107,7 @@ static double catenary_error(int nodes)
         *(2 * a * sinh(1 / a) > 3 ? &low : &high) = a;
     }
     plumb_softbody_desc d;
-    plumb_softbody_get(w, s, &d);
+    plumb_softbody_settings(w, s, &d);
     const double sag = -(double)d.nodes[nodes / 2].position.y;
     const double rest = (double)look(w, s).kinetic;
     plumb_world_destroy(w);
@@ -183,7 +183,7 @@ static void jelly_keeps_its_momentum(void **state)
     const plumb_softbody s = plumb_jelly_create(
         w, &(plumb_jelly_desc){ .points = square, .count = 4, .damping = (plumb_real)0.02 });
     plumb_softbody_desc d;
-    plumb_softbody_get(w, s, &d);
+    plumb_softbody_settings(w, s, &d);
     for (int i = 0; i < d.node_count; ++i) {
         plumb_softbody_node n = d.nodes[i];
         n.velocity = sim_vec(3 * ((double)n.position.y - 0.5),
@@ -210,7 +210,7 @@ static void fast_thread_does_not_tunnel(void **state)
     const plumb_softbody s = plumb_rope_create(
         w, &(plumb_rope_desc){ .from = sim_vec(0, -0.5), .to = sim_vec(0, 0.5), .nodes = 21 });
     plumb_softbody_desc d;
-    plumb_softbody_get(w, s, &d);
+    plumb_softbody_settings(w, s, &d);
     for (int i = 0; i < d.node_count; ++i) {
         plumb_softbody_node n = d.nodes[i];
         n.velocity.x = 200;
@@ -218,7 +218,7 @@ static void fast_thread_does_not_tunnel(void **state)
     }
     for (int i = 0; i < 60; ++i) {
         run(w, 1, 60);
-        plumb_softbody_get(w, s, &d);
+        plumb_softbody_settings(w, s, &d);
         for (int k = 0; k < d.node_count; ++k) {
             assert_true(d.nodes[k].position.x < (plumb_real)4.995);
         }
@@ -254,7 +254,7 @@ static void a_streamer_hangs_as_the_wind_has_it(void **state)
                                    .filter = { .category = 1, .mask = k == 2 ? 1 : 3 } });
         run(w, 900, 60);
         plumb_softbody_desc d;
-        plumb_softbody_get(w, s, &d);
+        plumb_softbody_settings(w, s, &d);
         const double tangent =
             (double)d.nodes[14].position.x / (4 - (double)d.nodes[14].position.y);
         within("streamer", tangent - (k == 2 ? 0 : 12 / 9.81), 2e-5);

@@ -62,7 +62,7 @@ static plumb_softbody make(plumb_world *w, row *r)
 static plumb_softbody_node node_of(const plumb_world *w, plumb_softbody s, int i)
 {
     plumb_softbody_desc d;
-    assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(w, s, &d), PLUMB_OK);
     return d.nodes[i];
 }
 

@@ -318,10 +318,11 @@ static void materials_refuse(void **state)
             plumb_material_destroy(W, NO_MATERIAL));
     REFUSED(E_STATE, "plumb_material_destroy: material is used by 1 piece; no shape may name it",
             plumb_material_destroy(W, f->used));
-    REFUSED(E_HANDLE, "plumb_material_get: material is a body; it must be a live material or null",
-            plumb_material_get(W, (plumb_material){ f->dynamic.entity }, &desc));
-    REFUSED(E_NULL, "plumb_material_get: desc is null; it must be given",
-            plumb_material_get(W, f->wood, NULL));
+    REFUSED(E_HANDLE,
+            "plumb_material_settings: material is a body; it must be a live material or null",
+            plumb_material_settings(W, (plumb_material){ f->dynamic.entity }, &desc));
+    REFUSED(E_NULL, "plumb_material_settings: desc is null; it must be given",
+            plumb_material_settings(W, f->wood, NULL));
     REFUSED(E_NULL, "plumb_material_set: desc is null; it must be given",
             plumb_material_set(W, f->wood, NULL));
     REFUSED(E_HANDLE, "plumb_material_set: material is a shape; it must be a live material or null",
@@ -579,7 +580,7 @@ static void a_null_world_is_refused_everywhere(void **state)
         plumb_shape_set_user_data(NULL, (plumb_shape){ e }, NULL),
         plumb_shape_piece(NULL, (plumb_shape){ e }, 0, &piece, NULL),
         plumb_material_destroy(NULL, (plumb_material){ e }),
-        plumb_material_get(NULL, (plumb_material){ e }, &material),
+        plumb_material_settings(NULL, (plumb_material){ e }, &material),
         plumb_material_set(NULL, (plumb_material){ e }, &material),
         plumb_entity_destroy(NULL, e),
         plumb_component_info(NULL, c, &info),

@@ -33,7 +33,7 @@ static void each_is_set_and_read(void **state)
     plumb_world *w = f->world;
     const plumb_body b = f->dynamic;
     plumb_body_desc d, all = { 0 };
-    assert_int_equal(plumb_body_get(w, b, &d), PLUMB_OK);
+    assert_int_equal(plumb_body_settings(w, b, &d), PLUMB_OK);
     assert_true(d.temperature == 0 && d.heat_capacity == 1000 && d.ambient == 293 &&
                 d.smallest == R(0.02) && d.growth == 0);
 #define SET(name, value, bad, call)                                                                \
@@ -44,7 +44,7 @@ static void each_is_set_and_read(void **state)
         all.name = v;                                                                              \
     }
     PROPERTIES(SET)
-    assert_int_equal(plumb_body_get(w, b, &d), PLUMB_OK);
+    assert_int_equal(plumb_body_settings(w, b, &d), PLUMB_OK);
     const plumb_body made = plumb_body_create(w, &all);
 #define IS(name, value, bad, call)                                                                 \
     assert_true(d.name == R(value));                                                               \

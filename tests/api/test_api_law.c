@@ -92,22 +92,22 @@ static void laws_are_made_changed_and_go(void **state)
     assert_int_equal(plumb_world_laws(w, all, 2), 2);
     assert_true(plumb_same(all[0], a) && plumb_same(all[1], b));
     assert_int_equal(plumb_entity_get_kind(w, a.entity), PLUMB_KIND_LAW);
-    assert_int_equal(plumb_law_get(w, b, &d), PLUMB_OK);
+    assert_int_equal(plumb_law_settings(w, b, &d), PLUMB_OK);
     assert_true(d.vector.y == 2);
     d.vector.y = 5;
     assert_int_equal(plumb_law_set(w, b, &d), PLUMB_OK);
-    assert_int_equal(plumb_law_get(w, b, &d), PLUMB_OK);
+    assert_int_equal(plumb_law_settings(w, b, &d), PLUMB_OK);
     assert_true(d.vector.y == 5);
     d.vector.y = R(NAN);
     assert_int_equal(plumb_law_set(w, b, &d), PLUMB_E_NOT_FINITE);
     assert_int_equal(plumb_law_set(w, b, NULL), PLUMB_E_NULL);
-    assert_int_equal(plumb_law_get(w, b, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_law_settings(w, b, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_body_destroy(w, f->kinematic), PLUMB_OK); // and its law
     assert_int_equal(plumb_world_laws(w, all, 2), 1);
     assert_true(plumb_same(all[0], b));
     assert_int_equal(plumb_law_destroy(w, a), PLUMB_E_HANDLE);
     assert_int_equal(plumb_law_set(w, a, &d), PLUMB_E_HANDLE);
-    assert_int_equal(plumb_law_get(w, a, &d), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_law_settings(w, a, &d), PLUMB_E_HANDLE);
     assert_int_equal(plumb_law_destroy(w, b), PLUMB_OK);
     assert_int_equal(plumb_world_laws(w, NULL, 0), 0);
     assert_int_equal(plumb_world_laws(NULL, NULL, 0), 0);
@@ -495,7 +495,7 @@ static void what_rests_in_a_steady_law_sleeps(void **state)
     run(w, 400);
     assert_int_equal(plumb_world_stats(w).asleep_count, 12);
     plumb_law_desc d;
-    plumb_law_get(w, laws[0], &d);
+    plumb_law_settings(w, laws[0], &d);
     d.strength = 50;
     plumb_law_set(w, laws[0], &d);
     run(w, 1);

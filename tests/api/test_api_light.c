@@ -127,10 +127,10 @@ static void materials_have_their_ranges(void **state)
                                        .absorption = 2 };
     plumb_material_desc got;
     const plumb_material m = plumb_material_create(w, &good);
-    assert_int_equal(plumb_material_get(w, m, &got), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, m, &got), PLUMB_OK);
     assert_true(got.refractive_index == good.refractive_index &&
                 got.reflectance == good.reflectance && got.absorption == 2);
-    assert_int_equal(plumb_material_get(w, NO_MATERIAL, &got), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, NO_MATERIAL, &got), PLUMB_OK);
     assert_true(got.refractive_index == 0 && got.reflectance == 0 && got.absorption == 0);
     plumb_world_destroy(w);
 }

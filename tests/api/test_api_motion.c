@@ -117,7 +117,7 @@ static void settings_are_read_back(void **state)
     plumb_body_set_thrust_y(w, b[3], -2);
     plumb_body_set_thrust_angle(w, b[3], 3);
     plumb_body_desc d;
-    assert_int_equal(plumb_body_get(w, b[3], &d), PLUMB_OK);
+    assert_int_equal(plumb_body_settings(w, b[3], &d), PLUMB_OK);
     assert_true(d.thrust == 7 && d.exhaust == 8 && d.fuel == 9 && d.drag == R(0.25));
     assert_true(d.thrust_x == 1 && d.thrust_y == -2 && d.thrust_angle == 3);
     assert_true(plumb_body_fuel(w, b[3]) == 9 && plumb_body_thrust(w, b[2]) == 0);

@@ -51,7 +51,7 @@ static void a_body_is_read_as_a_descriptor(void **state)
                                    .time_scale = R(0.25),
                                    .user_data = f };
     plumb_body made = plumb_body_create(f->world, &want);
-    assert_int_equal(plumb_body_get(f->world, made, &desc), PLUMB_OK);
+    assert_int_equal(plumb_body_settings(f->world, made, &desc), PLUMB_OK);
     assert_int_equal(desc.type, PLUMB_KINEMATIC);
     assert_vec_near(desc.position, 3, 4, 0);
     assert_vec_near(desc.velocity, 1, 2, 0);
@@ -59,13 +59,13 @@ static void a_body_is_read_as_a_descriptor(void **state)
     assert_near(desc.time_scale, 0.25, 0);
     assert_ptr_equal(desc.user_data, f);
     assert_int_equal(plumb_body_set_gravity_scale(f->world, made, 0), PLUMB_OK);
-    assert_int_equal(plumb_body_get(f->world, made, &desc), PLUMB_OK);
+    assert_int_equal(plumb_body_settings(f->world, made, &desc), PLUMB_OK);
     assert_true(desc.no_gravity);
-    REFUSED(E_HANDLE, "plumb_body_get: body is null; it must be a live body",
-            plumb_body_get(f->world, NO_BODY, &desc));
-    REFUSED(E_NULL, "plumb_body_get: desc is null; it must be given",
-            plumb_body_get(f->world, made, NULL));
-    assert_int_equal(plumb_body_get(NULL, made, &desc), PLUMB_E_NULL);
+    REFUSED(E_HANDLE, "plumb_body_settings: body is null; it must be a live body",
+            plumb_body_settings(f->world, NO_BODY, &desc));
+    REFUSED(E_NULL, "plumb_body_settings: desc is null; it must be given",
+            plumb_body_settings(f->world, made, NULL));
+    assert_int_equal(plumb_body_settings(NULL, made, &desc), PLUMB_E_NULL);
 }
 
 int main(void)

@@ -327,24 +327,24 @@ static void materials_are_read_and_changed(void **state)
     plumb_world *w = f->world;
     plumb_material_desc d;
     const plumb_material none = PLUMB_NULL_INIT;
-    assert_int_equal(plumb_material_get(w, none, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, none, &d), PLUMB_OK);
     assert_near(d.density, 1, 0);
     assert_near(d.friction, 0.6, ROUNDED(1e-7));
     assert_near(d.restitution, 0, 0);
-    assert_int_equal(plumb_material_get(w, f->wood, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, f->wood, &d), PLUMB_OK);
     assert_near(d.density, 2, 0);
     plumb_material zero = plumb_material_create(w, &(plumb_material_desc){ 0 });
-    assert_int_equal(plumb_material_get(w, zero, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, zero, &d), PLUMB_OK);
     assert_true(d.density == 1 && d.restitution == 0 && !d.frictionless);
     assert_near(d.friction, 0.6, 1e-7); // as a shape without material
     d = (plumb_material_desc){ .frictionless = true };
     assert_int_equal(plumb_material_set(w, zero, &d), PLUMB_OK);
-    assert_int_equal(plumb_material_get(w, zero, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, zero, &d), PLUMB_OK);
     assert_true(d.friction == 0 && d.frictionless); // what was read can be given back
     assert_int_equal(plumb_material_set(w, zero, &d), PLUMB_OK);
     d = (plumb_material_desc){ .density = 3, .friction = 10, .restitution = 1 };
     assert_int_equal(plumb_material_set(w, none, &d), PLUMB_OK);
-    assert_int_equal(plumb_material_get(w, none, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, none, &d), PLUMB_OK);
     assert_true(d.density == 3 && d.friction == 10 && d.restitution == 1);
 }
 
@@ -357,13 +357,13 @@ static void a_destroyed_material_leaves_the_others_as_they_were(void **state)
         w, f->fixed, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .material = last });
     assert_int_equal(plumb_material_destroy(w, f->wood), PLUMB_OK); // rows of materials move
     plumb_material_desc d;
-    assert_int_equal(plumb_material_get(w, last, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, last, &d), PLUMB_OK);
     assert_near(d.density, 9, 0);
     assert_true(plumb_same(plumb_shape_material(w, s), last));
     assert_int_equal(plumb_material_destroy(w, last), PLUMB_E_STATE);
     plumb_shape_destroy(w, s);
     assert_int_equal(plumb_material_destroy(w, last), PLUMB_OK);
-    assert_int_equal(plumb_material_get(w, last, &d), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_material_settings(w, last, &d), PLUMB_E_HANDLE);
 }
 
 // Turned, scaled and in any order: what counts is that points lie within the hull.

@@ -85,9 +85,9 @@ static void calls_are_checked(void **state)
     const plumb_body nobody = PLUMB_NULL_INIT;
     plumb_softbody_desc d;
     plumb_softbody_state m;
-    assert_int_equal(plumb_softbody_get(w, stale, &d), PLUMB_E_HANDLE);
-    assert_int_equal(plumb_softbody_get(w, s, NULL), PLUMB_E_NULL);
-    assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(w, stale, &d), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_softbody_settings(w, s, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_softbody_settings(w, s, &d), PLUMB_OK);
     assert_int_equal(d.node_count, 130);
     assert_int_equal(d.pin_count, 13);
     assert_int_equal(plumb_softbody_measure(w, s, NULL), PLUMB_E_NULL);
@@ -105,7 +105,7 @@ static void calls_are_checked(void **state)
                      PLUMB_E_RANGE);
     assert_int_equal(plumb_softbody_hold(w, s, 0, nobody, (plumb_vec2){ -2, 0 }), PLUMB_OK);
     assert_int_equal(plumb_softbody_hold(w, s, 0, nobody, (plumb_vec2){ -2, 1 }), PLUMB_OK);
-    plumb_softbody_get(w, s, &d);
+    plumb_softbody_settings(w, s, &d);
     assert_int_equal(d.pin_count, 14);
     assert_int_equal(plumb_softbody_release(w, s, 0), PLUMB_OK);
     assert_int_equal(plumb_softbody_release(w, s, 0), PLUMB_E_STATE);
@@ -130,12 +130,12 @@ static void what_goes_takes_its_pins_along(void **state)
     plumb_softbody_desc d;
     run(w, 10);
     assert_int_equal(plumb_body_destroy(w, b), PLUMB_OK);
-    plumb_softbody_get(w, rope, &d);
+    plumb_softbody_settings(w, rope, &d);
     assert_int_equal(d.pin_count, 1);
     run(w, 10);
     assert_int_equal(plumb_entity_get_kind(w, rope.entity), PLUMB_KIND_SOFTBODY);
     assert_int_equal(plumb_softbody_destroy(w, rope), PLUMB_OK);
-    plumb_softbody_get(w, other, &d);
+    plumb_softbody_settings(w, other, &d);
     assert_int_equal(d.pin_count, 13);
     run(w, 10);
     assert_int_equal(plumb_world_softbodies(w, NULL, 0), 1);
@@ -182,11 +182,11 @@ static void what_is_cut_is_open(void **state)
         const plumb_softbody s = skin_with_thread(w);
         run(w, 120);
         plumb_softbody_desc d;
-        assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+        assert_int_equal(plumb_softbody_settings(w, s, &d), PLUMB_OK);
         plumb_softbody_edge torn = d.edges[cut];
         torn.flags |= PLUMB_EDGE_TORN;
         assert_int_equal(plumb_softbody_set_edge(w, s, cut, &torn), PLUMB_OK);
-        assert_int_equal(plumb_softbody_get(w, s, &d), PLUMB_OK);
+        assert_int_equal(plumb_softbody_settings(w, s, &d), PLUMB_OK);
         assert_true((d.pressure == 0) == (cut < 12) && d.ambient == 0);
         for (int i = 0; i < 12; ++i) {
             const bool over = cut < 12 && (i == cut || (i + 1) % 12 == cut);
@@ -323,7 +323,7 @@ static void recordings_have_it(void **state)
         if (i == 30) { // cut, freed, gone
             plumb_softbody_desc d;
             assert_int_equal(plumb_world_softbodies(w, all, 5), 5);
-            assert_int_equal(plumb_softbody_get(w, all[0], &d), PLUMB_OK);
+            assert_int_equal(plumb_softbody_settings(w, all[0], &d), PLUMB_OK);
             plumb_softbody_edge e = d.edges[7];
             e.flags |= PLUMB_EDGE_TORN;
             assert_int_equal(plumb_softbody_set_edge(w, all[0], 7, &e), PLUMB_OK);
@@ -357,7 +357,7 @@ static uint64_t digest_all(plumb_world *w)
     const int count = plumb_world_softbodies(w, all, 5);
     for (int i = 0; i < count; ++i) {
         plumb_softbody_desc d;
-        assert_int_equal(plumb_softbody_get(w, all[i], &d), PLUMB_OK);
+        assert_int_equal(plumb_softbody_settings(w, all[i], &d), PLUMB_OK);
         digest_bytes(&digest, d.nodes, (size_t)d.node_count * sizeof *d.nodes);
         digest_bytes(&digest, d.edges, (size_t)d.edge_count * sizeof *d.edges);
     }
@@ -400,7 +400,7 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
     plumb_softbody_state sum;
     plumb_softbody_measure(w, all[0], &sum);
     plumb_softbody_desc d;
-    plumb_softbody_get(w, all[4], &d);
+    plumb_softbody_settings(w, all[4], &d);
     assert_int_equal(d.pin_count, 1);
     const double end = (double)sum.center.y;
     plumb_world_destroy(w);
@@ -515,7 +515,7 @@ static void sleep_by_a_call(void **state)
     assert_int_equal(plumb_world_stats(w).soft_asleep, 1);
     run(w, 10);
     assert_false(plumb_softbody_is_awake(w, rope) || plumb_body_is_awake(w, f->dynamic));
-    plumb_softbody_get(w, rope, &d);
+    plumb_softbody_settings(w, rope, &d);
     assert_true(d.asleep && d.nodes[12].velocity.y == 0);
     assert_int_equal(plumb_body_wake(w, f->dynamic),
                      PLUMB_OK); // and to sleep again before a step has seen it
@@ -553,7 +553,7 @@ static void made_asleep(void **state)
     const plumb_softbody s = plumb_softbody_create(w, &d);
     run(w, 30);
     assert_false(plumb_softbody_is_awake(w, s));
-    plumb_softbody_get(w, s, &d);
+    plumb_softbody_settings(w, s, &d);
     assert_true(d.asleep && d.nodes[0].velocity.x == 0 && d.nodes[0].position.x == 0);
     plumb_body_set_position(w, f->dynamic, plumb_v2(0, R(21.9)));
     run(w, 1);

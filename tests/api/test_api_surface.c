@@ -277,7 +277,7 @@ static void adhesion_is_mixed(void **state)
     plumb_world *w =
         hang((plumb_material_desc){ .adhesion = 20 }, (plumb_material_desc){ 0 }, &b, m);
     plumb_material_desc d;
-    plumb_material_get(w, m[0], &d);
+    plumb_material_settings(w, m[0], &d);
     assert_near(d.adhesion, 20, 0);
     assert_int_equal(d.adhesion_mix, PLUMB_MIX_DEFAULT);
     plumb_material_pair_set(w, m[0], m[1], &(plumb_material_pair){ .adhesion = 5 });

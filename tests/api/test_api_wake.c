@@ -99,7 +99,7 @@ CHANGE(set_wood, plumb_material_set(p->w, p->wood, &(plumb_material_desc){ .fric
 static plumb_result keep_wood(place *p)
 {
     plumb_material_desc desc;
-    assert_int_equal(plumb_material_get(p->w, p->wood, &desc), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(p->w, p->wood, &desc), PLUMB_OK);
     assert_int_equal(plumb_material_set(p->w, p->wood, &desc), PLUMB_OK);
     return plumb_material_pair_set(p->w, p->wood, p->wood, NULL);
 }

@@ -725,7 +725,7 @@ static void change_softbodies(session *s)
         plumb_softbody_destroy(w, all[which % (uint32_t)count]);
     } else if (count > 0 && first) {
         plumb_softbody_desc d;
-        if (plumb_softbody_get(w, all[which % (uint32_t)count], &d) == PLUMB_OK &&
+        if (plumb_softbody_settings(w, all[which % (uint32_t)count], &d) == PLUMB_OK &&
             (int)edge < d.edge_count) {
             plumb_softbody_edge torn = d.edges[edge];
             torn.flags |= PLUMB_EDGE_TORN;

@@ -18,7 +18,7 @@ static bool read_material(struct peer *p, const plumb_world *world, plumb_shape 
                           struct engine_material *out)
 {
     plumb_material_desc m = { 0 };
-    (void)plumb_material_get(world, plumb_shape_material(world, shape), &m);
+    (void)plumb_material_settings(world, plumb_shape_material(world, shape), &m);
     if (m.surface_speed != 0) {
         return pl_peer_refuse(p, "surfaces that run");
     }
@@ -128,7 +128,7 @@ static bool add_body(struct peer *p, plumb_world *world, plumb_body body)
     plumb_body_desc d = { 0 };
     plumb_shape shapes[SHAPES_MAX];
     int group, count = plumb_body_shapes(world, body, shapes, SHAPES_MAX);
-    (void)plumb_body_get(world, body, &d);
+    (void)plumb_body_settings(world, body, &d);
     if (count > SHAPES_MAX || !is_plain(p, &d) || !find_group(p, world, shapes, count, &group)) {
         return p->reason[0] != '\0' ? false : pl_peer_refuse(p, "more shapes of a body than 256");
     }

@@ -122,7 +122,7 @@ static int tell(const plumb_world *w, const things *t, double out[MOST])
     int count = 0;
     for (int i = 0; i < t->soft_count; ++i) {
         plumb_softbody_desc now;
-        assert_int_equal(plumb_softbody_get(w, t->soft[i], &now), PLUMB_OK);
+        assert_int_equal(plumb_softbody_settings(w, t->soft[i], &now), PLUMB_OK);
         for (int n = 0; n < now.node_count; ++n) {
             assert_true(count + 4 <= MOST);
             out[count++] = (double)now.nodes[n].position.x;

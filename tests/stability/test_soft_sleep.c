@@ -155,7 +155,7 @@ static double until_asleep(const place *p, double most)
 static plumb_softbody_desc look(const place *p)
 {
     plumb_softbody_desc d;
-    assert_int_equal(plumb_softbody_get(p->w, p->soft, &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(p->w, p->soft, &d), PLUMB_OK);
     return d;
 }
 
@@ -233,7 +233,7 @@ static void what_is_never_the_same_keeps_awake(void **state)
     (void)state;
     place p = make_place(HUNG, 3, false);
     plumb_material_desc m;
-    plumb_material_get(p.w, p.breeze, &m);
+    plumb_material_settings(p.w, p.breeze, &m);
     m.flow_x = 1, m.gust = R(0.5);
     plumb_material_set(p.w, p.breeze, &m);
     assert_true(until_asleep(&p, 20) < 0);
@@ -298,7 +298,7 @@ static void gone(place *p)
 static void set_material(place *p, plumb_material which, plumb_real friction, plumb_real flow)
 {
     plumb_material_desc m;
-    assert_int_equal(plumb_material_get(p->w, which, &m), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(p->w, which, &m), PLUMB_OK);
     m.friction = friction, m.flow_x = flow;
     assert_int_equal(plumb_material_set(p->w, which, &m), PLUMB_OK);
 }

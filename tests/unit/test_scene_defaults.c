@@ -76,7 +76,7 @@ static answers of_material(const plumb_world *w, plumb_material m)
 {
     answers a = { .count = 0 };
     plumb_material_desc d;
-    assert_int_equal(plumb_material_get(w, m, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, m, &d), PLUMB_OK);
     const plumb_real numbers[] = { d.density,         d.friction,
                                    d.restitution,     d.rolling_resistance,
                                    d.surface_speed,   d.adhesion,
@@ -84,9 +84,9 @@ static answers of_material(const plumb_world *w, plumb_material m)
     const int rules[] = { (int)d.friction_mix, (int)d.restitution_mix, (int)d.adhesion_mix,
                           d.frictionless };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
-        keep(&a, "a number of plumb_material_get", &numbers[i], sizeof numbers[i]);
+        keep(&a, "a number of plumb_material_settings", &numbers[i], sizeof numbers[i]);
     }
-    keep(&a, "a rule of plumb_material_get", rules, sizeof rules);
+    keep(&a, "a rule of plumb_material_settings", rules, sizeof rules);
     return a;
 }
 

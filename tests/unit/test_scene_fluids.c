@@ -25,7 +25,7 @@ static void words_make_a_material_and_a_body(void **state)
         assert_string_equal(found.name, names[i]);
         assert_int_equal(plumb_body_shapes(w, found.entity, &shape, 1), 1);
         assert_true(plumb_shape_is_sensor(w, shape));
-        assert_int_equal(plumb_material_get(w, plumb_shape_material(w, shape), &m), PLUMB_OK);
+        assert_int_equal(plumb_material_settings(w, plumb_shape_material(w, shape), &m), PLUMB_OK);
         assert_true(m.fluid && m.weightless == (i == 1));
         assert_true(fabs((double)m.density - (i == 0 ? 1025 : 1.2)) < 1e-4);
         assert_true(fabs((double)m.flow_x - (i == 0 ? 1.5 : 3)) < 1e-4);

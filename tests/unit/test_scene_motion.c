@@ -39,7 +39,7 @@ static void fields_reach_the_world(void **state)
     plumb_shape shape;
     plumb_material_desc m;
     plumb_body_shapes(w, named(s, "a"), &shape, 1);
-    plumb_material_get(w, plumb_shape_material(w, shape), &m);
+    plumb_material_settings(w, plumb_shape_material(w, shape), &m);
     assert_true(m.adhesion == 25);
     scene_destroy(s);
 }

@@ -33,7 +33,7 @@ static plumb_result set_material(plumb_world *w, plumb_entity thing, const void 
 
 static void get_material(const plumb_world *w, plumb_entity thing, void *desc)
 {
-    assert_int_equal(plumb_material_get(w, (plumb_material){ thing }, desc), PLUMB_OK);
+    assert_int_equal(plumb_material_settings(w, (plumb_material){ thing }, desc), PLUMB_OK);
 }
 
 static plumb_entity made_material(const scene *s)
@@ -69,7 +69,7 @@ static plumb_result make_body(plumb_world **w, const void *desc, plumb_entity *t
 
 static void get_body(const plumb_world *w, plumb_entity thing, void *desc)
 {
-    assert_int_equal(plumb_body_get(w, (plumb_body){ thing }, desc), PLUMB_OK);
+    assert_int_equal(plumb_body_settings(w, (plumb_body){ thing }, desc), PLUMB_OK);
 }
 
 static plumb_entity made_body(const scene *s)

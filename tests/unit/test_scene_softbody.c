@@ -39,24 +39,24 @@ static void words_make_them(void **state)
     plumb_softbody all[8];
     assert_int_equal(count_of(s, all), 5);
     plumb_softbody_desc d;
-    assert_int_equal(plumb_softbody_get(scene_world(s), all[0], &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(scene_world(s), all[0], &d), PLUMB_OK);
     assert_int_equal(d.node_count, 9);
     assert_int_equal(d.edge_count, 8);
     assert_int_equal(d.pin_count, 2);
     assert_true(d.friction == 0 && d.nodes[0].position.y == 4);
     const scene_softbody looks = scene_get_softbody(s, all[0]);
     assert_true(looks.palette < 0 && looks.color.r == 0x80 && looks.color.a == 0xff);
-    assert_int_equal(plumb_softbody_get(scene_world(s), all[1], &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(scene_world(s), all[1], &d), PLUMB_OK);
     assert_int_equal(d.node_count, 15);
-    assert_int_equal(plumb_softbody_get(scene_world(s), all[3], &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(scene_world(s), all[3], &d), PLUMB_OK);
     assert_int_equal(d.ring_count, 12);
-    assert_int_equal(plumb_softbody_get(scene_world(s), all[4], &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(scene_world(s), all[4], &d), PLUMB_OK);
     assert_true(d.edges[0].stiffness == 1000 && d.edges[0].flags == PLUMB_EDGE_PULLS);
     run_and_hold(s);
     assert_int_equal(count_of(s, all), 4);
-    assert_int_equal(plumb_softbody_get(scene_world(s), all[2], &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(scene_world(s), all[2], &d), PLUMB_OK);
     assert_true(d.pressure == 400);
-    assert_int_equal(plumb_softbody_get(scene_world(s), all[1], &d), PLUMB_OK);
+    assert_int_equal(plumb_softbody_settings(scene_world(s), all[1], &d), PLUMB_OK);
     assert_int_equal(d.pin_count, 4); // of five, one was released
     scene_destroy(s);
 }
@@ -76,8 +76,8 @@ static void json_keeps_them(void **state)
         for (int pass = 0; pass < 2; ++pass) {
             for (int i = 0; i < count_of(a, p); ++i) {
                 plumb_softbody_desc c, d;
-                assert_int_equal(plumb_softbody_get(scene_world(a), p[i], &c), PLUMB_OK);
-                assert_int_equal(plumb_softbody_get(scene_world(b), q[i], &d), PLUMB_OK);
+                assert_int_equal(plumb_softbody_settings(scene_world(a), p[i], &c), PLUMB_OK);
+                assert_int_equal(plumb_softbody_settings(scene_world(b), q[i], &d), PLUMB_OK);
                 assert_int_equal(c.node_count, d.node_count);
                 assert_int_equal(c.edge_count, d.edge_count);
                 assert_int_equal(c.triangle_count, d.triangle_count);

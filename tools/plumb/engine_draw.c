@@ -139,7 +139,7 @@ typedef enum shape_role { ROLE_SOLID, ROLE_SENSOR, ROLE_FLUID, ROLE_GLASS } shap
 static shape_role role_of(const plumb_world *world, plumb_shape shape)
 {
     plumb_material_desc material = { 0 };
-    plumb_material_get(world, plumb_shape_material(world, shape), &material);
+    plumb_material_settings(world, plumb_shape_material(world, shape), &material);
     if (!plumb_shape_is_sensor(world, shape)) {
         return (double)material.refractive_index > 0 ? ROLE_GLASS : ROLE_SOLID;
     }

@@ -163,8 +163,8 @@ static shapes_are look_at_shapes(engine_stage *stage, plumb_body body)
     for (int i = 0; i < count; i++) {
         plumb_material_desc m = { .fluid = false };
         const bool sensor = plumb_shape_is_sensor(stage->world, stage->shapes[i]);
-        (void)plumb_material_get(stage->world, plumb_shape_material(stage->world, stage->shapes[i]),
-                                 &m);
+        (void)plumb_material_settings(stage->world,
+                                      plumb_shape_material(stage->world, stage->shapes[i]), &m);
         are.solid |= !sensor;
         are.sensor |= sensor;
         are.fluid |= sensor && m.fluid;
@@ -307,7 +307,8 @@ static int soft_nodes(const plumb_world *world)
     int nodes = 0;
     const int count = plumb_world_softbodies(world, some, 64);
     for (int i = 0; i < count && i < 64; i++) {
-        nodes += plumb_softbody_get(world, some[i], &d) == PLUMB_OK && !d.asleep ? d.node_count : 0;
+        nodes +=
+            plumb_softbody_settings(world, some[i], &d) == PLUMB_OK && !d.asleep ? d.node_count : 0;
     }
     return nodes;
 }

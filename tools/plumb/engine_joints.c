@@ -250,7 +250,8 @@ void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes,
         plumb_material_desc m;
         plumb_material material = plumb_shape_material(stage->world, shapes[i]);
         if (!plumb_shape_is_sensor(stage->world, shapes[i]) &&
-            plumb_material_get(stage->world, material, &m) == PLUMB_OK && m.surface_speed != 0) {
+            plumb_material_settings(stage->world, material, &m) == PLUMB_OK &&
+            m.surface_speed != 0) {
             double run = (double)m.surface_speed * (pl_stage_time(stage) + moment);
             add_surface(stage->world, shapes[i], run, frame);
         }

@@ -58,7 +58,7 @@ static bool meets_soft(const lint_job *job, const plumb_filter *filter)
     bool meets = count > 256; // nobody looks through so many
     for (int i = 0; i < count && !meets; i++) {
         plumb_softbody_desc d;
-        meets = plumb_softbody_get(job->world, all[i], &d) == PLUMB_OK &&
+        meets = plumb_softbody_settings(job->world, all[i], &d) == PLUMB_OK &&
                 plumb_filters_meet(*filter, d.filter);
     }
     return meets;

@@ -35,7 +35,7 @@ static void look_at_running(lint_job *job, plumb_body body)
     const int count = pl_lint_shapes_of(job, body, &list);
     for (int i = 0; i < count && !idle; i++) {
         plumb_material_desc m;
-        idle = plumb_material_get(job->world, plumb_shape_material(job->world, list[i]), &m) ==
+        idle = plumb_material_settings(job->world, plumb_shape_material(job->world, list[i]), &m) ==
                    PLUMB_OK &&
                m.surface_speed != 0 && m.frictionless;
     }
@@ -51,7 +51,7 @@ static void look_at_sliding(lint_job *job, plumb_body body)
     const int count = pl_lint_shapes_of(job, body, &list);
     for (int i = 0; i < count; i++) {
         plumb_material_desc m;
-        if (plumb_material_get(job->world, plumb_shape_material(job->world, list[i]), &m) ==
+        if (plumb_material_settings(job->world, plumb_shape_material(job->world, list[i]), &m) ==
                 PLUMB_OK &&
             m.kinetic_friction > m.friction) {
             pl_lint_tell(
@@ -99,8 +99,8 @@ void pl_lint_gains(lint_job *job)
         const int count = pl_lint_shapes_of(job, body, &list);
         for (int k = 0; k < count; k++) {
             plumb_material_desc m;
-            if (plumb_material_get(job->world, plumb_shape_material(job->world, list[k]), &m) ==
-                    PLUMB_OK &&
+            if (plumb_material_settings(job->world, plumb_shape_material(job->world, list[k]),
+                                        &m) == PLUMB_OK &&
                 m.restitution > 1) {
                 pl_lint_tell(job, "'%s' has a restitution of %.3g", pl_lint_name_of(job, body),
                              (double)m.restitution);

@@ -92,8 +92,8 @@ static double densest_fluid(const lint_job *job)
         for (int k = 0; k < count; k++) {
             plumb_material_desc m;
             if (plumb_shape_is_sensor(job->world, list[k]) &&
-                plumb_material_get(job->world, plumb_shape_material(job->world, list[k]), &m) ==
-                    PLUMB_OK &&
+                plumb_material_settings(job->world, plumb_shape_material(job->world, list[k]),
+                                        &m) == PLUMB_OK &&
                 m.fluid && !m.weightless) {
                 most = fmax(most, (double)m.density);
             }

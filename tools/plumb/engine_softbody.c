@@ -167,7 +167,7 @@ static render_style style_of(const engine_stage *stage, plumb_softbody body, int
 static bool add_one(const engine_stage *stage, plumb_softbody body, int index, render_frame *frame)
 {
     plumb_softbody_desc d;
-    if (plumb_softbody_get(stage->world, body, &d) != PLUMB_OK) {
+    if (plumb_softbody_settings(stage->world, body, &d) != PLUMB_OK) {
         return true;
     }
     render_style own = style_of(stage, body, index);
@@ -193,7 +193,7 @@ plumb_aabb pl_stage_softbody_box(const engine_stage *stage, plumb_softbody body)
 {
     plumb_softbody_desc d = { 0 };
     plumb_aabb box = { { 0, 0 }, { 0, 0 } };
-    plumb_softbody_get(stage->world, body, &d);
+    plumb_softbody_settings(stage->world, body, &d);
     for (int i = 0; i < d.node_count; i++) {
         const plumb_vec2 p = d.nodes[i].position;
         const plumb_real r = d.nodes[i].radius;

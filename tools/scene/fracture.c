@@ -112,7 +112,7 @@ static void reread(const scene *s, sc_body *b)
     sc_body_def *d = &b->def;
     const plumb_world *w = s->world;
     plumb_body_desc now;
-    plumb_body_get(w, b->entity, &now);
+    plumb_body_settings(w, b->entity, &now);
 #define REREAD(member)                                                                             \
     d->member = (double)now.member;                                                                \
     SC_MARK(list, d, sc_body_def, member, now.member != 0)

@@ -189,7 +189,7 @@ static void write_softbody(sc_json_writer *w, const sc_softbody *b)
     const sc_list *list = &sc_list_softbodies[SC_SOFTBODY], *own = &sc_list_softbodies[b->kind];
     sc_softbody_def d = b->def;
     plumb_softbody_desc now;
-    plumb_softbody_get(w->s->world, b->handle, &now);
+    plumb_softbody_settings(w->s->world, b->handle, &now);
     d.present = 0;
 #define KEEP(member)                                                                               \
     SC_MARK(list, &d, sc_softbody_def, member, SC_GIVEN(own, &b->def, sc_softbody_def, member))

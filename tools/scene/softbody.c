@@ -363,7 +363,7 @@ void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind, int
     if (plumb_is_null(made)) {
         sc_refused(s, site, NULL, plumb_world_error(s->world).code, "%s{}", list->name);
     }
-    plumb_softbody_get(s->world, made, &now);
+    plumb_softbody_settings(s->world, made, &now);
     sc_work(s, 100 + 20 * ((uint64_t)now.node_count + (uint64_t)now.edge_count));
     *SC_PUSH(s, s->softbodies) = (sc_softbody){ .def = def, .kind = kind, .handle = made };
     plumb_softbody *object = lua_newuserdatauv(s->L, sizeof *object, 0);
@@ -414,7 +414,7 @@ static plumb_softbody self_of(lua_State *L, const sc_site *site, plumb_softbody_
 {
     scene *s = sc_of(L);
     const plumb_softbody *object = luaL_checkudata(L, 1, META);
-    if (plumb_softbody_get(s->world, *object, now) != PLUMB_OK) {
+    if (plumb_softbody_settings(s->world, *object, now) != PLUMB_OK) {
         sc_raise(s, SCENE_E_NAME, site, NULL, 0, NULL, "the soft body was removed");
     }
     sc_work(s, 10);

@@ -127,9 +127,9 @@ static void use_tracing(void)
     plumb_world_create(NULL, &w);
     plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .tracing = 3 });
     is("tracing: made", plumb_body_tracing(w, b) == 3);
-    is("tracing: refused", plumb_body_set_tracing(w, b, 11) == PLUMB_E_RANGE &&
-                              strstr(plumb_world_error(w).message, "tracing is 11; it must be 0 to 10") !=
-                                  NULL);
+    is("tracing: refused",
+       plumb_body_set_tracing(w, b, 11) == PLUMB_E_RANGE &&
+           strstr(plumb_world_error(w).message, "tracing is 11; it must be 0 to 10") != NULL);
     plumb_world_save(w, image, sizeof image);
     const uint64_t hash = plumb_world_hash(w);
     used = 0;
@@ -179,7 +179,8 @@ static void use_wind(void)
     near("wind: against damping", plumb_body_velocity(w, pushed).x, 0.75 * (1 - exp(-2)), 1e-5);
     plumb_world *classic = NULL;
     plumb_world_create(
-        &(plumb_world_desc){ .zero_gravity = true, .solver = PLUMB_SOLVER_PGS, .workers = 2 }, &classic);
+        &(plumb_world_desc){ .zero_gravity = true, .solver = PLUMB_SOLVER_PGS, .workers = 2 },
+        &classic);
     pushed = plumb_body_create(classic, &(plumb_body_desc){ .mass = 2, .inertia = 1, .wind = 3 });
     run(classic, 64);
     near("wind: by the classic solver", plumb_body_velocity(classic, pushed).x, 1.5, 1e-5);
@@ -201,7 +202,8 @@ static void use_edge(void)
     plumb_world *w = weightless();
     is("edge: nothing, no row", !is_scheduled(w, "edge of the world"));
     plumb_body b = plumb_body_create(
-        w, &(plumb_body_desc){ .position = { 9, 0 }, .velocity = { 4, 1 }, .mass = 1, .inertia = 1 });
+        w,
+        &(plumb_body_desc){ .position = { 9, 0 }, .velocity = { 4, 1 }, .mass = 1, .inertia = 1 });
     run(w, 8);
     near("edge: before", plumb_body_position(w, b).x, 9.5, 1e-5);
     comes_again("edge: saved, replayed", w, 56);
@@ -218,9 +220,11 @@ static void use_polish(void)
     plumb_world *w;
     plumb_world_create(&(plumb_world_desc){ .gravity = { 0, -10 } }, &w);
     plumb_material_desc got;
-    plumb_material m = plumb_material_create(w, &(plumb_material_desc){ .friction = 0.5f, .polish = 0.5f });
-    is("polish: made", plumb_material_get(w, m, &got) == PLUMB_OK && got.polish == 0.5f);
-    is("polish: refused", plumb_material_set(w, m, &(plumb_material_desc){ .polish = 2 }) == PLUMB_E_RANGE);
+    plumb_material m =
+        plumb_material_create(w, &(plumb_material_desc){ .friction = 0.5f, .polish = 0.5f });
+    is("polish: made", plumb_material_settings(w, m, &got) == PLUMB_OK && got.polish == 0.5f);
+    is("polish: refused",
+       plumb_material_set(w, m, &(plumb_material_desc){ .polish = 2 }) == PLUMB_E_RANGE);
     const plumb_property *p = plumb_property_find(PLUMB_TABLE_MATERIAL, "polish");
     is("polish: listed", p != NULL && p->high == 1 && p->saved);
     // Slides to rest: v^2 / (2 mu g), mu = 0.5 (1 - 0.6).
@@ -247,7 +251,8 @@ static void use_rail(void)
 {
     plumb_world *w;
     plumb_world_create(&(plumb_world_desc){ .gravity = { 0, -10 } }, &w);
-    plumb_body bead = plumb_body_create(w, &(plumb_body_desc){ .mass = 2, .inertia = 1, .angular_velocity = 1 });
+    plumb_body bead =
+        plumb_body_create(w, &(plumb_body_desc){ .mass = 2, .inertia = 1, .angular_velocity = 1 });
     plumb_joint rail = plumb_joint_create(
         w, &(plumb_joint_desc){ .kind = PLUMB_RAIL, .body_b = bead, .axis = { 3, -4 } });
     is("rail: made", plumb_joint_get_kind(w, rail) == PLUMB_RAIL &&
@@ -276,8 +281,10 @@ static void use_rail(void)
     run(scene_world(s), 64);
     near("rail: of the scene", plumb_world_bodies(scene_world(s)).y[0], -4 * 0.8, FIRST_ORDER);
     scene_error error;
-    is("rail: refused in Lua", load("b.lua", "body{ name = 'b', circle{1} } rail{ world, 'b', ratio = 2 }", &error) == NULL &&
-                                   strstr(error.text, "ratio") != NULL && error.line == 1);
+    is("rail: refused in Lua",
+       load("b.lua", "body{ name = 'b', circle{1} } rail{ world, 'b', ratio = 2 }", &error) ==
+               NULL &&
+           strstr(error.text, "ratio") != NULL && error.line == 1);
 }
 
 //---- kind of shape --------------------------------------------------------------------------------
@@ -302,13 +309,15 @@ static void use_ellipse(void)
                &(plumb_draw_desc){ .parts = PLUMB_DRAW_SHAPES });
     is("ellipse: drawn", lines >= 16);
 
-    scene *s = said("scene{ gravity = {0, -10} } body{ type = 'static', box{100, 2, at = {0, -1}} } "
-                    "body{ ellipse{4, 1}, at = {0, 1} }",
-                    "\"ellipse\"");
+    scene *s =
+        said("scene{ gravity = {0, -10} } body{ type = 'static', box{100, 2, at = {0, -1}} } "
+             "body{ ellipse{4, 1}, at = {0, 1} }",
+             "\"ellipse\"");
     is("ellipse: said in Lua and JSON", s != NULL);
     run(scene_world(s), 20);
     comes_again("ellipse: saved, replayed", scene_world(s), 100);
-    near("ellipse: lies on its edge", plumb_world_bodies(scene_world(s)).y[0], 0.5 * cos(half_edge), 2e-3);
+    near("ellipse: lies on its edge", plumb_world_bodies(scene_world(s)).y[0], 0.5 * cos(half_edge),
+         2e-3);
 }
 
 int main(void)
