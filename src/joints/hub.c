@@ -10,6 +10,10 @@
 // net 1, ragdolls 0.9; a link between two of its mass that bears much more has 5/4, equal boxes in a row of welds 1.7. Beyond MOST
 // an assembly is solved together, whole: in part, what is solved and what is swept feed one another (DECISIONS.md).
 //
+// A body that nothing moves has all of that: what is held there so that it does not turn, turns to a bound or by a spring, counts as 1. What
+// may turn counts as HINGED, so that a light link between the world and what is 20 times as heavy counts, and a chain does not. And where what must not turn is held far beside its centre, its
+// turn and its way are nearly one direction: it is solved as it stands, however few they are.
+//
 // Cables push at their rims, the others at their anchors.
 //
 // The rule asks for masses and for places on the bodies alone, never for poses, so that a plan can be kept.
@@ -21,6 +25,11 @@
 #include "world/state.h"
 
 #define MOST 1.1
+
+// [-] lever_share up to which sweeps hold what must not turn: that of a crate of 1 m held at a point 3.2 m away.
+#define FAR 20
+
+#define HINGED 0.2
 
 // What is swept all the same, for the factor of it would take longer than all the rest: nets of more joints, and bodies of so many
 // (the sum of cubes is three times the blocks that one elimination multiplies).
@@ -107,11 +116,38 @@ static bool slides_freely(const plumb_joint_desc *d)
     return d->kind == PLUMB_WHEEL && !d->enable_limit && !pl_joint_has_spring(d);
 }
 
+// Of a joint to what nothing moves.
+static double share_of_world(const plumb_joint_desc *d, what_holds holds)
+{
+    if (holds == NOTHING) {
+        return d->kind == PLUMB_RATCHET;
+    }
+    return holds == PLACE_AND_TURN || d->enable_limit || pl_joint_has_spring(d) ? 1 : HINGED;
+}
+
+// [-] by how much more a push at the anchor moves it through the turn of its body than through its way.
+static double lever_share(const plumb_world *world, const pl_joint_end *e, uint32_t row)
+{
+    const end at = end_of(world, e, row, 0);
+    return square(at.arm) * at.inv_inertia / at.inv_mass;
+}
+
 static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joint_mark *m,
                        pl_hub *hubs)
 {
     const what_holds holds = held_by(&j->desc);
-    if (holds == NOTHING || m->row_a >= world->dynamic_count || m->row_b >= world->dynamic_count) {
+    const uint32_t movable = world->dynamic_count;
+    const uint32_t rows[2] = { m->row_a, m->row_b };
+    const pl_joint_end *ends[2] = { &j->a, &j->b };
+    const double of_world = share_of_world(&j->desc, holds);
+    for (int k = 0; k < 2; ++k) {
+        if (rows[k] < movable) {
+            const bool is_far =
+                holds == PLACE_AND_TURN && lever_share(world, ends[k], rows[k]) > FAR;
+            hubs[rows[k]].share += is_far ? 2 * MOST : rows[1 - k] >= movable ? of_world : 0;
+        }
+    }
+    if (holds == NOTHING || m->row_a >= movable || m->row_b >= movable) {
         return;
     }
     const end a = end_of(world, &j->a, m->row_a, j->desc.radius_a);

@@ -38,7 +38,7 @@ static plumb_body one_end(plumb_world *w, uint32_t *random)
 static machine machine_of(uint32_t seed, bool counted_from_0)
 {
     static const plumb_joint_kind kinds[] = { PLUMB_REVOLUTE, PLUMB_PRISMATIC, PLUMB_WHEEL };
-    uint32_t random = seed * 2654435761u + 1;
+    uint32_t random = (seed * 2654435761u) | 1;
     sim_random(&random);
     machine m = { .world = sim_world(
                       &(plumb_world_desc){ .gravity = sim_vec(3, -9), .no_sleep = true }) };

@@ -300,10 +300,34 @@ static void what_meets_a_limit_stops(void **state)
     }
 }
 
+// Bounds that are moved far from a hinge's value are met where they are, not full turns away: it turns back in steps that can be told.
+static void a_bound_far_away_is_met_on_its_turn(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 3; ++i) {
+        for (double gap = 0.5; gap < 20; gap *= 1.3) {
+            for (int side = -1; side <= 1; side += 2) {
+                plumb_world *w = sim_world(&(plumb_world_desc){
+                    .solver = solvers[i], .zero_gravity = true, .no_sleep = true });
+                const plumb_body b = mass(w, 1, 0, 1, 0.1);
+                const plumb_joint j =
+                    sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
+                const double near = side * gap, far = side * (gap + 0.3);
+                plumb_joint_set_limit(w, j, true, (plumb_real)fmin(near, far),
+                                      (plumb_real)fmax(near, far));
+                sim_run(w, 600, DT);
+                assert_near(plumb_joint_value(w, j), near, 0.02);
+                plumb_world_destroy(w);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_meets_a_limit_stops),
+        cmocka_unit_test(a_bound_far_away_is_met_on_its_turn),
         cmocka_unit_test(sliders_rise_by_the_square),
         cmocka_unit_test(rods_come_back_from_their_limit),
         cmocka_unit_test(ropes_throw_back),
