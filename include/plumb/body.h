@@ -147,7 +147,8 @@ PLUMB_API plumb_result plumb_body_set_target(plumb_world *world, plumb_body body
 /// angular velocity [rad/s], with which it goes on. From the pose and the velocity that it has now it goes by cubics of
 /// time: keyframes are joined so, and the velocity has no jumps; with both velocities 0 it starts and stops smoothly. What it
 /// carries bears m (g + a) in every substep. It turns the way, and as often, as comes nearest to what its angular
-/// velocities would turn it by. dt is of the world's time.
+/// velocities would turn it by. dt is of the world's time, and need not be a number of steps: for what is left of the step in which it
+/// arrives it goes on (the next keyframe is due so much earlier); within one step it is spread over that.
 /// O(1). Errors: E_HANDLE, E_RANGE (also where it would be faster than 1e12 m/s), E_NOT_FINITE, E_STATE (not
 /// kinematic), E_MEMORY.
 PLUMB_API plumb_result plumb_body_set_target_moving(plumb_world *world, plumb_body body, plumb_vec2 position,

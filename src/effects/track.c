@@ -9,9 +9,10 @@
 // it goes know; within a substep the solver has the mean over that, by which it moves and contacts are solved, and
 // where they are relaxed the velocity of its end: what stands on it bears m (g + x''), to second order.
 //
-// A body that is to arrive within the step does so at its end: what is left of the track is made anew for that time. On arrival
-// the pose is the target's, bit for bit, and the body goes on with the velocity. Reads: tracks. Writes: velocities and poses of their
-// bodies, solver bodies. Cost: O(tracks) a step, a substep and cluster.
+// A body that arrives within a step goes on with the velocity for the rest of it: one keyframe after the other, whatever the steps,
+// without a jerk. Where it arrives with the step, or at rest, the pose is the target's, bit for bit. A track that is shorter than the step
+// is spread over it. Reads: tracks. Writes: velocities and poses of their bodies, solver bodies. Cost: O(tracks) a step, a substep
+// and cluster.
 #include "effects/effects.h"
 #include "plumb/math.h"
 #include "world/body_settings.h"
@@ -53,25 +54,44 @@ static double mean_of(const pl_track_axis *x, double s, double t)
     return x->speed + x->rate * (s + t) / 2 + x->jerk * (s * s + s * t + t * t) / 6;
 }
 
-// What a step follows.
+// What a step follows: cubics, and behind them the velocity.
 typedef struct leg {
     pl_track_axis axis[3]; // x, y, angle
-    double since;          // [s] of the step's beginning
+    double since, until;   // [s] of the step's beginning, of the arrival
+    double end[3];         // velocity
     bool arrives;
 } leg;
 
 static leg leg_of(const pl_track *track, double dt)
 {
-    leg l = { .since = track->time - track->left, .arrives = track->left - dt <= REST * dt };
-    const bool anew = dt - track->left > REST * dt;
+    leg l = { .since = track->time - track->left,
+              .until = track->time,
+              .arrives = track->left - dt <= REST * dt };
+    const bool spread = dt - track->time > REST * dt;
     for (int k = 0; k < 3; ++k) {
         const pl_track_axis *x = &track->axis[k];
-        l.axis[k] = anew ? axis_of(track->left * mean_of(x, l.since, track->time),
-                                   speed_at(x, l.since), track->end[k], dt)
-                         : *x;
+        l.end[k] = track->end[k];
+        l.axis[k] =
+            spread ? axis_of(track->time * mean_of(x, 0, track->time), x->speed, track->end[k], dt)
+                   : *x;
     }
-    l.since = anew ? 0 : l.since;
+    l.since = spread ? 0 : l.since;
+    l.until = spread || fabs(dt - track->left) <= REST * dt ? l.since + dt : l.until;
     return l;
+}
+
+static double leg_speed_at(const leg *l, int k, double t)
+{
+    return t <= l->until ? speed_at(&l->axis[k], t) : l->end[k];
+}
+
+static double leg_mean_of(const leg *l, int k, double s, double t)
+{
+    const double met = t < l->until ? t : l->until;
+    if (s >= met) {
+        return l->end[k];
+    }
+    return ((met - s) * mean_of(&l->axis[k], s, met) + (t - met) * l->end[k]) / (t - s);
 }
 
 static bool waits(const plumb_world *world, uint32_t row)
@@ -199,8 +219,8 @@ void pl_tracks_open(plumb_world *world, real dt)
         }
         const leg l = leg_of(track, (double)dt);
         const double end = l.since + (double)dt;
-        const double v[3] = { mean_of(&l.axis[0], l.since, end), mean_of(&l.axis[1], l.since, end),
-                              mean_of(&l.axis[2], l.since, end) };
+        const double v[3] = { leg_mean_of(&l, 0, l.since, end), leg_mean_of(&l, 1, l.since, end),
+                              leg_mean_of(&l, 2, l.since, end) };
         set_velocity(world, row, v);
     }
 }
@@ -233,7 +253,7 @@ static void drive(const pl_substep *s, bool ends)
         const double from = l.since + s->number * h, to = from + h;
         double v[3];
         for (int k = 0; k < 3; ++k) {
-            v[k] = bounded(ends ? speed_at(&l.axis[k], to) : mean_of(&l.axis[k], from, to));
+            v[k] = bounded(ends ? leg_speed_at(&l, k, to) : leg_mean_of(&l, k, from, to));
         }
         pl_solver_body *body = &pl_solver_bodies(solver)[slot];
         body->vx = (near_real)v[0], body->vy = (near_real)v[1], body->w = (near_real)v[2];
@@ -250,6 +270,25 @@ void pl_tracks_end(const pl_substep *s)
     drive(s, true);
 }
 
+// Puts the body where it is `rest` [s] after its arrival: its centre goes straight on, about which it turns.
+static void place_behind(plumb_world *world, uint32_t row, const pl_track *track, double rest)
+{
+    pl_bodies *b = &world->bodies;
+    b->x[row] = track->x, b->y[row] = track->y;
+    b->c[row] = track->turn.c, b->s[row] = track->turn.s;
+    if (rest > 0) {
+        const plumb_vec2 local = { b->local_x[row], b->local_y[row] };
+        const plumb_rot on =
+            plumb_rot_mul(track->turn, plumb_rot_make((real)(track->end[2] * rest)));
+        const plumb_vec2 before = plumb_rot_apply(track->turn, local),
+                         behind = plumb_rot_apply(on, local);
+        b->x[row] += before.x - behind.x + (real)(track->end[0] * rest);
+        b->y[row] += before.y - behind.y + (real)(track->end[1] * rest);
+        b->c[row] = on.c, b->s[row] = on.s;
+    }
+    pl_body_update_center(world, row);
+}
+
 void pl_tracks_arrive(plumb_world *world, real dt)
 {
     pl_bodies *b = &world->bodies;
@@ -261,16 +300,16 @@ void pl_tracks_arrive(plumb_world *world, real dt)
             items(world)[kept++] = track;
             continue;
         }
-        const bool arrives = leg_of(&track, (double)dt).arrives;
+        const leg l = leg_of(&track, (double)dt);
+        const double rest =
+            l.since + (double)dt - l.until; // 0 to the bit where it arrives with the step
         track.left -= (double)dt;
-        if (!arrives) {
+        if (!l.arrives) {
             items(world)[kept++] = track;
             set_velocity_of(world, &track);
             continue;
         }
-        b->x[row] = track.x, b->y[row] = track.y;
-        b->c[row] = track.turn.c, b->s[row] = track.turn.s;
-        pl_body_update_center(world, row);
+        place_behind(world, row, &track, rest > REST * (double)dt ? rest : 0);
         set_velocity(world, row, track.end);
         b->flags[row] &= (uint16_t)~PL_BODY_TARGETED;
     }

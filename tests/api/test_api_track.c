@@ -1,6 +1,8 @@
 // test_api_track.c - kinematic bodies that are to arrive with a velocity: where they go, what ends it, what is refused.
 #include "world_fixture.h"
 
+#include "harness/random.h"
+
 #define NONE ((plumb_body)PLUMB_NULL_INIT)
 #define STEP R(1.0 / 60)
 
@@ -20,13 +22,17 @@ static void send(fixture *f, plumb_real dt)
     assert_true(plumb_body_has_target(f->world, f->kinematic));
 }
 
-static void check_arrived(fixture *f)
+// `rest` [s] ago: since then it has gone on.
+static void check_arrived(fixture *f, double rest)
 {
     const plumb_world *w = f->world;
-    const plumb_rot turn = plumb_rot_make(R(0.5)), is = plumb_body_transform(w, f->kinematic).q;
+    const plumb_rot turn = plumb_rot_make(R(0.5 + rest)),
+                    is = plumb_body_transform(w, f->kinematic).q;
     assert_false(plumb_body_has_target(w, f->kinematic));
-    assert_vec_near(plumb_body_position(w, f->kinematic), 13, 4, 0);
-    assert_true(turn.c == is.c && turn.s == is.s);
+    assert_vec_near(plumb_body_position(w, f->kinematic), 13 + 2 * rest, 4 - rest,
+                    rest > 0 ? ROUNDED(2e-6) : 0);
+    assert_near(is.c, turn.c, rest > 0 ? ROUNDED(1e-6) : 0);
+    assert_near(is.s, turn.s, rest > 0 ? ROUNDED(1e-6) : 0);
     assert_vec_near(plumb_body_velocity(w, f->kinematic), 2, -1, 0);
     assert_near(plumb_body_angular_velocity(w, f->kinematic), 1, 0);
 }
@@ -48,9 +54,36 @@ static void pose_and_velocity_are_met(void **state)
         steps(f, cases[i].steps - 1);
         assert_true(plumb_body_has_target(f->world, f->kinematic));
         steps(f, 1);
-        check_arrived(f);
+        const double rest = cases[i].dt < 1.0 / 60 ? 0 : cases[i].steps / 60.0 - cases[i].dt;
+        check_arrived(f, fabs(rest) < 1e-9 ? 0 : rest);
         steps(f, 60);
-        assert_vec_near(plumb_body_position(f->world, f->kinematic), 15, 3, ROUNDED(1e-4));
+        assert_vec_near(plumb_body_position(f->world, f->kinematic), 15 + 2 * rest, 3 - rest,
+                        ROUNDED(1e-4));
+    }
+}
+
+// Keyframes at times that are no multiples of the step, at one speed: each step goes as far as it says.
+static void keyframes_follow_without_a_jerk(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    uint32_t random = 7;
+    double key = 0, x = 10, now = 0;
+    plumb_body_teleport(w, f->kinematic, plumb_v2(10, 0), 0);
+    plumb_body_set_velocity(w, f->kinematic, plumb_v2(2, 0));
+    plumb_body_set_angular_velocity(w, f->kinematic, 0);
+    for (int i = 0; i < 300; ++i) {
+        if (now >= key) {
+            key += sim_uniform(&random, 0.05, 0.4);
+            plumb_body_set_target_moving(w, f->kinematic, plumb_v2((plumb_real)(10 + 2 * key), 0),
+                                         0, plumb_v2(2, 0), 0, (plumb_real)(key - now));
+        }
+        steps(f, 1);
+        now += 1.0 / 60;
+        const double before = x;
+        x = (double)plumb_body_position(w, f->kinematic).x;
+        assert_near(x - before, 2.0 / 60, ROUNDED(1e-4));
+        assert_near(x, 10 + 2 * now, ROUNDED(1e-4));
     }
 }
 
@@ -91,7 +124,7 @@ static void a_new_order_takes_its_place(void **state)
     plumb_body_set_target(w, k, plumb_v2(9, 9), 0, 1);
     send(f, R(0.5));
     steps(f, 30);
-    check_arrived(f);
+    check_arrived(f, 0);
     send(f, 1);
     plumb_body_destroy(w, k);
     steps(f, 2);
@@ -156,7 +189,7 @@ static void it_is_saved_on_its_way(void **state)
         plumb_world_step(other, STEP);
         assert_true(plumb_world_hash(w) == plumb_world_hash(other));
     }
-    check_arrived(&(fixture){ .world = other, .kinematic = f->kinematic });
+    check_arrived(&(fixture){ .world = other, .kinematic = f->kinematic }, 0);
     plumb_world_destroy(other);
 }
 
@@ -199,13 +232,10 @@ static void what_is_wrong_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        API_TEST(pose_and_velocity_are_met),
-        API_TEST(turns_are_counted),
-        API_TEST(a_new_order_takes_its_place),
-        API_TEST(who_waits_goes_on),
-        API_TEST(sleepers_wake),
-        API_TEST(it_is_saved_on_its_way),
-        API_TEST(what_is_wrong_is_refused),
+        API_TEST(pose_and_velocity_are_met), API_TEST(keyframes_follow_without_a_jerk),
+        API_TEST(turns_are_counted),         API_TEST(a_new_order_takes_its_place),
+        API_TEST(who_waits_goes_on),         API_TEST(sleepers_wake),
+        API_TEST(it_is_saved_on_its_way),    API_TEST(what_is_wrong_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
