@@ -50,7 +50,7 @@ typedef struct plumb_contact_end {
     plumb_body body_a, body_b;
 } plumb_contact_end;
 
-/// Begin events of the last step; *count is set. Null when there are none.
+/// Begin events of the last step. What a kinematic character meets is told by plumb_character_hits. *count is set. Null when there are none.
 PLUMB_API const plumb_contact_begin *plumb_world_begin_events(const plumb_world *world, int *count);
 /// End events of the last step; *count is set. Null when there are none.
 PLUMB_API const plumb_contact_end *plumb_world_end_events(const plumb_world *world, int *count);

@@ -130,6 +130,13 @@ static bool is_leaving(const pl_walker *m, const flight *f, const pl_touch *t, p
     return f->gone < START * m->half_width && out > LEAVES * speed;
 }
 
+// Back on the ground that it stood on when the step began, as where it pushes and is lifted by a hair.
+static bool stands_again(const pl_walker *m, const pl_touch *t)
+{
+    return pl_is_floor(m, t->nx, t->ny) &&
+           plumb_same(m->world->pieces.shape[t->obstacle->piece], m->stood);
+}
+
 // Goes along (dx, dy), having begun with velocity v; stops where it lands when `lands`, and returns the
 // share that is left.
 static double slide(pl_walker *m, double dx, double dy, plumb_vec2 v, bool lands)
@@ -153,7 +160,9 @@ static double slide(pl_walker *m, double dx, double dy, plumb_vec2 v, bool lands
             continue;
         }
         double approach = approach_of(m, &t);
-        pl_walker_tell(m, &t, approach);
+        if (!stands_again(m, &t)) {
+            pl_walker_tell(m, &t, approach);
+        }
         bool wedged = lands && is_wedged(m, &f, t.nx, t.ny);
         if (lands && (wedged || pl_is_floor(m, t.nx, t.ny)) && approach >= -1e-6) {
             pl_walker_stand(m, &t);

@@ -11,6 +11,7 @@
 // Order: first of the built-in passes. Cost: see walker.h, a character.
 #include "world/destroy.h"
 #include "broad/broad.h"
+#include "query/query.h"
 #include "character/walker.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
@@ -170,6 +171,17 @@ static void move_on_foot(pl_walker *m)
     }
 }
 
+// [m/s] over the ground. Its own pace goes on where it pushes, for when that gives way: it is told what it came along by.
+static double pace_of(const pl_walker *m)
+{
+    const double pace = (double)m->c->speed, side = pace < 0 ? -1 : 1;
+    if (!m->pushed) {
+        return pace;
+    }
+    const double way = (m->x - m->carried_x) * m->ny - (m->y - m->carried_y) * m->nx;
+    return side * pl_most(pl_least(side * way / m->dt, side * pace), 0);
+}
+
 // What is known of the ground where everything is when the step is over.
 static void finish_ground(pl_walker *m)
 {
@@ -181,8 +193,9 @@ static void finish_ground(pl_walker *m)
     plumb_transform end = pl_row_end_pose(m->world, row, m->step);
     c->ground.local =
         plumb_transform_inv_apply(end, pl_wrap_point(m->world, c->ground.point, end.p));
-    c->velocity.x = c->ground.velocity.x + c->speed * (real)m->ny;
-    c->velocity.y = c->ground.velocity.y - c->speed * (real)m->nx;
+    const double pace = pace_of(m);
+    c->velocity.x = c->ground.velocity.x + (real)(pace * m->ny);
+    c->velocity.y = c->ground.velocity.y - (real)(pace * m->nx);
     c->on_slope = false;
 }
 
@@ -204,6 +217,7 @@ static bool move_one(plumb_world *world, pl_character *c, real dt)
         return false;
     }
     m.slope_side = c->slope_side;
+    m.stood = c->on_ground ? c->ground.shape : (plumb_shape)PLUMB_NULL_INIT;
     c->slope_side = 0;
     be_carried(&m, carry);
     pl_walker_recover(&m);

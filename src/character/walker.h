@@ -46,6 +46,7 @@ typedef struct pl_walker {
     double nx, ny;                              // normal of the ground
     int slope_side;                             // as of the step before
     double carried_x, carried_y;                // [m] by the ground, in this step
+    plumb_shape stood;                          // what it stood on when the step began
     bool landed;                                // in this step
     bool pushed;                                // a body, in this step
     double skin, step_height, step_width, snap; // [m]; 0: switched off

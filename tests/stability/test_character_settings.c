@@ -326,6 +326,35 @@ static void hits(void **state)
     plumb_world_destroy(world);
 }
 
+// Against a crate that it cannot move, or that a wall stops, it stands: its velocity says so, and the ground under it is no hit.
+static void pushing_in_vain(void **state)
+{
+    (void)state;
+    for (int heavy = 0; heavy < 2; ++heavy) {
+        plumb_world *world = make_world();
+        plumb_body floor = add_floor(world);
+        plumb_body crate = add_box(world, PLUMB_DYNAMIC, V(2, 0.5), V(0.5, 0.5));
+        plumb_body_set_mass(world, crate, heavy ? 5000 : 20);
+        add_box(world, PLUMB_STATIC, V(heavy ? 20 : 3.2, 1), V(0.5, 1));
+        plumb_body hero = add_hero(world, 0, 0, NULL);
+        run(world, 60, 0.5);
+        plumb_character_walk(world, hero, 4);
+        for (int i = 0; i < 180; ++i) {
+            plumb_character_hit list[PLUMB_CHARACTER_HITS];
+            run(world, 60, 1.0 / 60);
+            const int count = plumb_character_hits(world, hero, list, PLUMB_CHARACTER_HITS);
+            for (int k = 0; k < count; ++k) {
+                assert_false(plumb_same(list[k].body, floor));
+            }
+            const double told = (double)state_of(world, hero).velocity.x;
+            assert_true(told >= 0 && told <= 4 + 1e-5);
+        }
+        assert_true(state_of(world, hero).at_wall && state_of(world, hero).on_ground);
+        assert_near(state_of(world, hero).velocity.x, 0, heavy ? 0.05 : 0.01);
+        plumb_world_destroy(world);
+    }
+}
+
 static void air_time(void **state)
 {
     (void)state;
@@ -362,13 +391,21 @@ static void filters_hold(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(max_slope),      cmocka_unit_test(steps),
-        cmocka_unit_test(snapping),       cmocka_unit_test(skin),
-        cmocka_unit_test(acceleration),   cmocka_unit_test(in_the_air),
-        cmocka_unit_test(max_fall_speed), cmocka_unit_test(mass),
-        cmocka_unit_test(pushing),        cmocka_unit_test(up),
-        cmocka_unit_test(flying),         cmocka_unit_test(thrown),
-        cmocka_unit_test(hits),           cmocka_unit_test(air_time),
+        cmocka_unit_test(max_slope),
+        cmocka_unit_test(steps),
+        cmocka_unit_test(snapping),
+        cmocka_unit_test(skin),
+        cmocka_unit_test(acceleration),
+        cmocka_unit_test(in_the_air),
+        cmocka_unit_test(max_fall_speed),
+        cmocka_unit_test(mass),
+        cmocka_unit_test(pushing),
+        cmocka_unit_test(up),
+        cmocka_unit_test(flying),
+        cmocka_unit_test(thrown),
+        cmocka_unit_test(hits),
+        cmocka_unit_test(air_time),
+        cmocka_unit_test(pushing_in_vain),
         cmocka_unit_test(filters_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
