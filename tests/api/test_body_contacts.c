@@ -139,7 +139,7 @@ static void a_body_has_what_the_world_says(void **state)
     static stage s;
     for (uint32_t seed = t.first; seed < t.end; ++seed) {
         s = (stage){ .world = sim_world(&(plumb_world_desc){ .contact_impulses = seed % 2 == 0 }),
-                     .random = seed * 2654435761u + 1 };
+                     .random = (seed * 2654435761u) | 1 };
         sim_floor(s.world, sim_material(s.world, 0.5, 0.2));
         for (int i = 0; i < BODIES; ++i) {
             make(&s, i);

@@ -199,7 +199,7 @@ static void queries_see_edits(void **state)
         const plumb_world_desc d = { .wrap_x = wraps ? 30 : 0, .wrap_y = wraps ? 30 : 0 };
         stage s = { .world = sim_world(&d),
                     .copy = sim_world(&d),
-                    .random = seed * 2654435761u + 1 };
+                    .random = (seed * 2654435761u) | 1 };
         for (int i = 0; i < BODIES; ++i) {
             make(&s, i);
         }
