@@ -26,8 +26,10 @@
 
 #define MOST 1.1
 
-// [-] lever_share up to which sweeps hold what must not turn: that of a crate of 1 m held at a point 3.2 m away.
-#define FAR 20
+// [-] lever_share up to which sweeps hold what must not turn: that of a crate of 1 m held at a point 1.8 m away, and, as springs are
+// more exact where they are swept, of one with a spring 13 m away.
+#define FAR        20
+#define FAR_SPRUNG 1000
 
 #define HINGED 0.2
 
@@ -140,10 +142,11 @@ static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joi
     const uint32_t rows[2] = { m->row_a, m->row_b };
     const pl_joint_end *ends[2] = { &j->a, &j->b };
     const double of_world = share_of_world(&j->desc, holds);
+    const double far = pl_joint_has_spring(&j->desc) ? FAR_SPRUNG : FAR;
     for (int k = 0; k < 2; ++k) {
         if (rows[k] < movable) {
             const bool is_far =
-                holds == PLACE_AND_TURN && lever_share(world, ends[k], rows[k]) > FAR;
+                holds == PLACE_AND_TURN && lever_share(world, ends[k], rows[k]) > far;
             hubs[rows[k]].share += is_far ? 2 * MOST : rows[1 - k] >= movable ? of_world : 0;
         }
     }
