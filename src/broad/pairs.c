@@ -382,12 +382,15 @@ bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener)
 
 //---- pairs that are sought (narrow/struck.c) ---------------------------------------------------------
 
+// What a pair that was sought has as its value, if it was in no list before.
+enum { LISTED, ADDED };
+
 static pl_pair *find_sought(const plumb_world *world, const pl_keyed *sought)
 {
     return pl_pairs_find_one(world, (uint32_t)(sought->key >> 32), (uint32_t)sought->key);
 }
 
-bool pl_pairs_seek(plumb_world *world, const pl_keyed *sought, uint32_t count)
+bool pl_pairs_seek(plumb_world *world, pl_keyed *sought, uint32_t count)
 {
     pl_broad *broad = &world->broad;
     pl_sorted sorted;
@@ -397,6 +400,7 @@ bool pl_pairs_seek(plumb_world *world, const pl_keyed *sought, uint32_t count)
     broad->found_count = 0;
     for (uint32_t i = 0; i < count; ++i) {
         if (find_sought(world, &sought[i]) == NULL) {
+            sought[i].value = ADDED;
             ((pl_found *)broad->found.data)[broad->found_count++] =
                 (pl_found){ (uint32_t)(sought[i].key >> 32), (uint32_t)sought[i].key };
         }
@@ -450,7 +454,9 @@ void pl_pairs_undo_seek(plumb_world *world, const pl_keyed *sought, uint32_t cou
     pl_pairs_seek_no_more(world, sought, count);
     for (uint32_t i = 0; i < count && !pl_is_wrapped(world); ++i) {
         pl_pair *pair = find_sought(world, &sought[i]);
-        if (pair != NULL && !pl_boxes_overlap(&fat[pair->a], &fat[pair->b])) {
+        // One of the step before may touch, wherever its boxes are.
+        if (pair != NULL && sought[i].value == ADDED &&
+            !pl_boxes_overlap(&fat[pair->a], &fat[pair->b])) {
             pair->flags |= PL_PAIR_SOUGHT;
             any = true;
         }

@@ -15,10 +15,10 @@ bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener);
 
 // Adds pairs (their keys are those of pl_pair_key) whose boxes do not overlap, unless they are there; all of them are
 // PL_PAIR_SOUGHT then. False when out of memory.
-bool pl_pairs_seek(plumb_world *world, const pl_keyed *sought, uint32_t count);
+bool pl_pairs_seek(plumb_world *world, pl_keyed *sought, uint32_t count);
 // They are so no more; those that were added stay, as if their boxes overlapped.
 void pl_pairs_seek_no_more(plumb_world *world, const pl_keyed *sought, uint32_t count);
-// The step is refused: those go.
+// The step is refused: those that were added go.
 void pl_pairs_undo_seek(plumb_world *world, const pl_keyed *sought, uint32_t count);
 
 // The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).

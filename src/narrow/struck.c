@@ -174,6 +174,8 @@ static void sort_sought(pl_lookahead *ahead)
     for (uint32_t i = 0; i < ahead->sought_count; ++i) {
         if (i == 0 || sought[i].key != sought[kept - 1].key) {
             sought[kept++] = sought[i];
+        } else {
+            sought[kept - 1].value |= sought[i].value; // it was added in a round before
         }
     }
     ahead->sought_count = kept;
