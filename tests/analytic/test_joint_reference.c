@@ -75,6 +75,7 @@ static machine machine_of(uint32_t seed, bool counted_from_0)
     return m;
 }
 
+// In which substep a limit is met may hang on the last digit.
 static void limits_and_rest_count_from_it(void **state)
 {
     (void)state;
@@ -92,12 +93,11 @@ static void limits_and_rest_count_from_it(void **state)
         for (int i = 0; i < 2; ++i) {
             if (!plumb_is_null(told.body[i])) {
                 const plumb_vec2 at = plumb_body_position(shifted.world, shifted.body[i]);
-                assert_vec_near(plumb_body_position(told.world, told.body[i]), at.x, at.y,
-                                ROUNDED(2e-3));
+                assert_vec_near(plumb_body_position(told.world, told.body[i]), at.x, at.y, 2e-3);
             }
         }
         assert_near(plumb_joint_value(told.world, told.joint) - d.reference,
-                    plumb_joint_value(shifted.world, shifted.joint), ROUNDED(2e-3));
+                    plumb_joint_value(shifted.world, shifted.joint), 2e-3);
         assert_true(plumb_joint_value(told.world, told.joint) > d.lower - (plumb_real)0.02);
         assert_true(plumb_joint_value(told.world, told.joint) < d.upper + (plumb_real)0.02);
         plumb_world_destroy(told.world);

@@ -164,7 +164,7 @@ static void a_body_has_what_the_world_says(void **state)
                 assert_int_equal(plumb_world_save(s.world, image, size), PLUMB_OK);
             }
         }
-        assert_true(found > 1000);
+        assert_true(found > 300);
         assert_int_equal(plumb_world_restore(s.world, image, size), PLUMB_OK);
         free(image);
         s.count = plumb_world_contacts(s.world, s.all, MOST);

@@ -264,7 +264,7 @@ static void replays_tell_what_runs_told(void **state)
 {
     (void)state;
     static run r;
-    const trials t = trials_from(0, SESSIONS);
+    const trials t = trials_whole(0, SESSIONS);
     uint32_t failures = 0;
     uint64_t all[STREAMS] = { 0 };
     for (uint32_t number = t.first; number < t.end; ++number) {

@@ -49,6 +49,14 @@ static inline trials trials_from(uint32_t first, uint32_t usual)
     return (trials){ from, from + trials_count(usual) };
 }
 
+/// As many in every precision: where among all of them each thing must be seen once.
+static inline trials trials_whole(uint32_t first, uint32_t usual)
+{
+    const uint32_t from = (uint32_t)trials_asked("FIRST", first);
+    const double count = trials_asked("COUNT", usual * trials_asked("TRIALS", 1));
+    return (trials){ from, from + (count < 1 ? 1 : (uint32_t)count) };
+}
+
 /// Of a list of cases that take long one in `every`: others in float, in double and in the far build, so that with 3 each is
 /// taken by one of them. With TRIALS=`every` all are.
 static inline bool trials_takes(uint32_t number, uint32_t every)
