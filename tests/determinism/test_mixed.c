@@ -454,7 +454,7 @@ enum { WORLDS = 10 };
 // 137, float, once more, and 2, far: others were looked at than the new contacts, after some pairs had fallen asleep (sleep/lie.c). 30, double, and
 // 6, far: a pair held, or passed, by what the refused step had found of a one-way shape (narrow/one_way.c). 63, float and double: a character that slept
 // half way through one stood on it (character/obstacle.c). 193, double: a pair that an impact made meet was parted by a face that it remembered
-// (broad/pairs.c).
+// (broad/pairs.c); float: the refused step took out a pair that touched with those that it had sought (broad/pairs.c).
 static const unsigned once[] = { 17, 137, 274, 32, 128, 139, 150, 63, 193 };
 #define ONCE (sizeof once / sizeof once[0])
 
