@@ -118,14 +118,9 @@ bool pl_query_grids_update(plumb_world *world)
     return set->fresh;
 }
 
-bool pl_query_has_strays(const plumb_world *world)
-{
-    return world->query_grids.stray_count > 0;
-}
-
 bool pl_query_grids_file_all(plumb_world *world)
 {
-    world->query_grids.fresh &= !pl_query_has_strays(world);
+    world->query_grids.fresh &= world->query_grids.stray_count == 0;
     return pl_query_grids_update(world);
 }
 

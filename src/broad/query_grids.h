@@ -13,9 +13,7 @@
 bool pl_query_grids_update(plumb_world *world);
 // The same, with nothing astray: for what goes through the grids and wants each piece once, where it is. O(pieces) where any was.
 bool pl_query_grids_file_all(plumb_world *world);
-// Whether there are any beside the grids that have them where they were; after pl_query_grids_update.
-bool pl_query_has_strays(const plumb_world *world);
-// The grid to look into; after pl_query_grids_update. That of the strays only where there are any.
+// The grid to look into; after pl_query_grids_update. That of the strays only where there are any (stray_count).
 const pl_grid *pl_query_grid_of(const plumb_world *world, pl_query_grid which);
 // Whether the step's own grids hold all that there is, where it is now; that of what sleeps may still name pieces that sleep no
 // more. Cost: O(moving pieces).

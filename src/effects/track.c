@@ -302,14 +302,14 @@ void pl_tracks_arrive(plumb_world *world, real dt)
         }
         const leg l = leg_of(&track, (double)dt);
         const double rest =
-            l.since + (double)dt - l.until; // 0 to the bit where it arrives with the step
+            l.since + (double)dt - l.until; // 0 to the bit where it arrives with the step (leg_of)
         track.left -= (double)dt;
         if (!l.arrives) {
             items(world)[kept++] = track;
             set_velocity_of(world, &track);
             continue;
         }
-        place_behind(world, row, &track, rest > REST * (double)dt ? rest : 0);
+        place_behind(world, row, &track, rest);
         set_velocity(world, row, track.end);
         b->flags[row] &= (uint16_t)~PL_BODY_TARGETED;
     }

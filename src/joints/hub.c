@@ -122,7 +122,7 @@ static bool slides_freely(const plumb_joint_desc *d)
 static double share_of_world(const plumb_joint_desc *d, what_holds holds)
 {
     if (holds == NOTHING) {
-        return d->kind == PLUMB_RATCHET;
+        return d->kind == PLUMB_RATCHET ? 1 : 0;
     }
     return holds == PLACE_AND_TURN || d->enable_limit || pl_joint_has_spring(d) ? 1 : HINGED;
 }
@@ -134,10 +134,10 @@ static double lever_share(const plumb_world *world, const pl_joint_end *e, uint3
     return square(at.arm) * at.inv_inertia / at.inv_mass;
 }
 
-static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joint_mark *m,
-                       pl_hub *hubs)
+// What each body has of the joint whatever the other one is like: held far beside its centre, or at the world.
+static void add_own_shares(const plumb_world *world, const pl_joint *j, const pl_joint_mark *m,
+                           what_holds holds, pl_hub *hubs)
 {
-    const what_holds holds = held_by(&j->desc);
     const uint32_t movable = world->dynamic_count;
     const uint32_t rows[2] = { m->row_a, m->row_b };
     const pl_joint_end *ends[2] = { &j->a, &j->b };
@@ -150,7 +150,14 @@ static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joi
             hubs[rows[k]].share += is_far ? 2 * MOST : rows[1 - k] >= movable ? of_world : 0;
         }
     }
-    if (holds == NOTHING || m->row_a >= movable || m->row_b >= movable) {
+}
+
+static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joint_mark *m,
+                       pl_hub *hubs)
+{
+    const what_holds holds = held_by(&j->desc);
+    add_own_shares(world, j, m, holds, hubs);
+    if (holds == NOTHING || m->row_a >= world->dynamic_count || m->row_b >= world->dynamic_count) {
         return;
     }
     const end a = end_of(world, &j->a, m->row_a, j->desc.radius_a);

@@ -128,7 +128,7 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS
     if (!q->filter.ignore_static) {
         grids[count++] = pl_query_grid_of(q->world, PL_QUERY_FIXED);
     }
-    if (pl_query_has_strays(q->world)) {
+    if (q->world->query_grids.stray_count > 0) {
         grids[count++] = pl_query_grid_of(q->world, PL_QUERY_STRAYS);
     }
     return count;
@@ -147,7 +147,7 @@ bool pl_query_sees(const pl_query *q, uint32_t piece)
 {
     const plumb_world *world = q->world;
     const plumb_query_filter *f = &q->filter;
-    const bool may_be_gone = world->sleep.gone > 0 || pl_query_has_strays(world);
+    const bool may_be_gone = world->sleep.gone > 0 || world->query_grids.stray_count > 0;
     if (may_be_gone && !is_there(world, piece, f)) {
         return false;
     }

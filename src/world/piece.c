@@ -73,7 +73,7 @@ static void stray(plumb_world *world, uint32_t slot)
 void pl_pieces_stray(plumb_world *world, uint32_t row)
 {
     uint32_t p = world->bodies.first_piece[row];
-    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+    for (; p != PL_NONE && world->query_grids.fresh; p = world->pieces.next_in_body[p]) {
         stray(world, p);
     }
 }
