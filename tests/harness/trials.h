@@ -34,13 +34,18 @@ static inline double trials_asked(const char *name, double otherwise)
     return value;
 }
 
+/// How many, of so many in a run that nobody asked more of: one at the least.
+static inline uint32_t trials_share(uint32_t usual, double share)
+{
+    const double count = trials_asked("COUNT", usual * share * trials_asked("TRIALS", 1));
+    return count < 1 ? 1 : (uint32_t)count;
+}
+
 /// How many, for tests that draw all cases from one stream of random numbers: in float, the default, all, in double and in the far
 /// build the first third of them, for what these add is their precision.
 static inline uint32_t trials_count(uint32_t usual)
 {
-    const double share = PLUMB_IS_FAR || sizeof(plumb_real) > sizeof(float) ? 1.0 / 3 : 1;
-    const double count = trials_asked("COUNT", usual * share * trials_asked("TRIALS", 1));
-    return count < 1 ? 1 : (uint32_t)count;
+    return trials_share(usual, PLUMB_IS_FAR || sizeof(plumb_real) > sizeof(float) ? 1.0 / 3 : 1);
 }
 
 static inline trials trials_from(uint32_t first, uint32_t usual)
@@ -53,8 +58,7 @@ static inline trials trials_from(uint32_t first, uint32_t usual)
 static inline trials trials_whole(uint32_t first, uint32_t usual)
 {
     const uint32_t from = (uint32_t)trials_asked("FIRST", first);
-    const double count = trials_asked("COUNT", usual * trials_asked("TRIALS", 1));
-    return (trials){ from, from + (count < 1 ? 1 : (uint32_t)count) };
+    return (trials){ from, from + trials_share(usual, 1) };
 }
 
 /// Of a list of cases that take long one in `every`: others in float, in double and in the far build, so that with 3 each is

@@ -259,27 +259,21 @@ static int lua_light_on(lua_State *L)
     return 2;
 }
 
-static void set_number(lua_State *L, const char *key, plumb_real value)
-{
-    lua_pushnumber(L, (double)value);
-    lua_setfield(L, -2, key);
-}
-
 static void push_segment(scene *s, const plumb_light_segment *p)
 {
     lua_State *L = s->L;
     static const char *const hows[] = { "sent", "reflected", "refracted" };
     sc_push_told(L, SC_TOLD_RAY);
-    set_number(L, "x0", p->from.x);
-    set_number(L, "y0", p->from.y);
-    set_number(L, "x1", p->to.x);
-    set_number(L, "y1", p->to.y);
-    set_number(L, "power", p->power);
-    set_number(L, "power_end", p->power_end);
-    set_number(L, "absorbed", p->absorbed);
-    set_number(L, "polarization", p->polarization);
-    set_number(L, "index", p->index);
-    set_number(L, "incidence", p->incidence);
+    sc_push_field(L, "x0", p->from.x);
+    sc_push_field(L, "y0", p->from.y);
+    sc_push_field(L, "x1", p->to.x);
+    sc_push_field(L, "y1", p->to.y);
+    sc_push_field(L, "power", p->power);
+    sc_push_field(L, "power_end", p->power_end);
+    sc_push_field(L, "absorbed", p->absorbed);
+    sc_push_field(L, "polarization", p->polarization);
+    sc_push_field(L, "index", p->index);
+    sc_push_field(L, "incidence", p->incidence);
     lua_pushinteger(L, p->parent + 1);
     lua_setfield(L, -2, "parent");
     lua_pushinteger(L, p->depth);
