@@ -402,8 +402,56 @@ static double passes_by(const pl_sweep *s, double apart, double left)
     return apart;
 }
 
+//---- what turns several times about ----------------------------------------------------------------
+
+// [rad] of a leg from there on a piece is asked first how far its corners reach at all.
+#define WHIRLS (2 * 3.14159265358979323846)
+
+// What a piece passes over while it turns, as one that does not.
+static pl_swept whirl_of(const pl_swept *piece)
+{
+    pl_swept disc = *piece;
+    double square = 0;
+    for (int i = 0; i < piece->count; ++i) {
+        square = pl_greater(square, piece->x[i] * piece->x[i] + piece->y[i] * piece->y[i]);
+    }
+    disc.count = 1;
+    disc.x[0] = disc.y[0] = disc.angle = 0;
+    disc.radius += sqrt(square);
+    return disc;
+}
+
+static bool is_whirling(const pl_swept *piece)
+{
+    return fabs(piece->angle) > WHIRLS;
+}
+
+// A time until which nothing comes near, however it is turned; above 1: nothing does.
+static double out_of_reach(const pl_sweep *s, double from, double to, double target,
+                           double tolerance)
+{
+    pl_swept disc[2];
+    const pl_swept *piece[2];
+    for (int i = 0; i < 2; ++i) {
+        piece[i] = s->piece[i];
+        if (is_whirling(piece[i])) {
+            disc[i] = whirl_of(piece[i]);
+            piece[i] = &disc[i];
+        }
+    }
+    return pl_sweep_first(piece[0], piece[1], from, to, target, tolerance);
+}
+
+//---- the first time --------------------------------------------------------------------------------
+
 double pl_sweep_first_of(pl_sweep *s, double from, double to, double target, double tolerance)
 {
+    if (is_whirling(s->piece[0]) || is_whirling(s->piece[1])) {
+        from = out_of_reach(s, from, to, target, tolerance);
+        if (!(from < to)) {
+            return PL_SWEEP_NEVER;
+        }
+    }
     const double apart = s->piece[0]->radius + s->piece[1]->radius + target; // of the cores
     place_both(s, from);
     // First, as it costs little.

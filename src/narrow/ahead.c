@@ -41,6 +41,9 @@
 #define IMPACTS 16
 // So many sweeps are worth a thread.
 #define LEAST 16
+// Looks a step: a candidate, and how many that have few may take as if they had more.
+#define LOOKS       4
+#define LOOKS_LEAST 256
 
 // The last relaxing sweep of the soft step keeps points from what they would do in one substep more.
 double pl_ahead_horizon(const plumb_world *world, real dt)
@@ -182,6 +185,7 @@ static void look_at_open(pl_looking *l)
         }
     }
     uint32_t count = list_items(l, PL_TOI_OPEN, false);
+    l->ahead->looks += count;
     for (int round = 0; round < ROUNDS && count > 0; ++round) {
         make_manifolds(l, count);
         count = refine(l, count);
@@ -410,6 +414,14 @@ static pl_looking open_look(plumb_world *world, const pl_narrow_input *in, real 
     return l;
 }
 
+// Whether so much was looked at in this step that the rest of it is left to the solver and the sweeps of continuous/: where
+// something goes at a million metres a second everything is struck, by everything, again and again. The wildest scene of ours takes
+// 0.4 looks a candidate.
+static bool is_enough(const pl_looking *l)
+{
+    return l->ahead->looks > LOOKS * (l->narrow->candidate_count + LOOKS_LEAST);
+}
+
 bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_narrow *narrow)
 {
     pl_lookahead *ahead = &world->lookahead;
@@ -439,6 +451,9 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
             !reserve_lists(world, ahead)) {
             return false;
         }
+        if (is_enough(&l)) {
+            break;
+        }
     }
     if (any) { // the last word is that of the ways as they are now
         look_at_open(&l);
@@ -446,7 +461,7 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
     if (narrow->any_elastic) {
         pl_looking_expire(&l);
     }
-    if (narrow == &world->narrow && !pl_looking_seek(&l)) {
+    if (narrow == &world->narrow && !is_enough(&l) && !pl_looking_seek(&l)) {
         return false;
     }
     pl_looking_settle(&l);

@@ -120,12 +120,43 @@ static double nearest_on_leg(pl_sweep *s, double from, pl_nearest *out)
     return at;
 }
 
+// [m] how far about its centre of mass the body of a side reaches; HUGE_VAL: nobody keeps count, it stands still.
+static double reach_of(const pl_moving_pair *e, int side)
+{
+    const uint32_t row = e->world->pieces.body[e->piece[side]];
+    return row < e->world->dynamic_count + e->world->kinematic_count
+               ? (double)e->world->bodies.extent[row]
+               : HUGE_VAL;
+}
+
+// [-] reach is kept in float, and rounded.
+#define REACH_ROUNDED 1e-6
+
+// Whether bodies that reach so far pass by one another on a leg: told by their centres alone, which costs a hundredth of a
+// sweep.
+static bool passes_by(const pl_moving_pair *e, double from, double to, double reach)
+{
+    const pl_motion a0 = pl_path_at(&e->paths->of[0], from), a1 = pl_path_at(&e->paths->of[0], to);
+    const pl_motion b0 = pl_path_at(&e->paths->of[1], from), b1 = pl_path_at(&e->paths->of[1], to);
+    const double x = e->px[1] + b0.x - a0.x, y = e->py[1] + b0.y - a0.y; // of B from A
+    const double dx = b1.x - b0.x - (a1.x - a0.x), dy = b1.y - b0.y - (a1.y - a0.y);
+    const double way = dx * dx + dy * dy;
+    const double t = way > 0 ? pl_lesser(pl_greater(-(x * dx + y * dy) / way, 0), 1) : 0;
+    const double nx = x + t * dx, ny = y + t * dy;
+    return nx * nx + ny * ny > reach * reach;
+}
+
 // First to the contact: most that get here meet, or pass far to one side, which is told at once.
 pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, int leg, double near)
 {
     pl_pair_approach best = { .kind = PL_APPROACH_NONE, .time = PL_SWEEP_NEVER };
+    const double reach = (reach_of(e, 0) + reach_of(e, 1)) * (1 + REACH_ROUNDED) +
+                         pl_greater(near, PL_TOI_TOLERANCE);
     for (int i = leg; i < e->paths->legs; ++i) {
         const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
+        if (passes_by(e, from, to, reach)) {
+            continue;
+        }
         pl_swept a, b;
         put_leg(&a, e, 0, from, to);
         put_leg(&b, e, 1, from, to);

@@ -36,7 +36,7 @@ static void forget_contacts(plumb_world *world)
     world->laws.step.flies = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
-    world->lookahead.kept_count = world->lookahead.sought_count = 0;
+    world->lookahead.kept_count = world->lookahead.sought_count = world->lookahead.looks = 0;
     world->lookahead.again = false;
     world->internal_edges.noted = world->internal_edges.opened = false;
     world->continuous.count = world->continuous.stopped_count = 0;

@@ -107,12 +107,14 @@ typedef struct motion_case {
 static void the_first_time_is_never_late(void **state)
 {
     (void)state;
-    const motion_case cases[] = {
-        { "straight", 10, 0 }, { "slow turns", 5, 0.1 }, { "a turn", 5, 1 }, { "many turns", 3, 8 }
-    };
+    const motion_case cases[] = { { "straight", 10, 0 },
+                                  { "slow turns", 5, 0.1 },
+                                  { "a turn", 5, 1 },
+                                  { "many turns", 3, 8 },
+                                  { "whirling", 3, 300 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         unsigned seed = 9;
-        int hits = 0, searched = 0;
+        int hits = 0, searched = 0, given_up = 0;
         double late = 0, early = 0;
         for (int i = 0; i < 4000; ++i) {
             pl_swept a = random_piece(&seed, cases[k].motion, cases[k].turns);
@@ -137,13 +139,16 @@ static void the_first_time_is_never_late(void **state)
             if (hit) {
                 ++hits;
                 double gap = pl_sweep_gap(&a, &b, time).distance;
-                early = fmax(early, gap - target);
-                assert_true(gap <= target + tolerance);
+                given_up += gap > target + tolerance;
+                early = fmax(early, fmin(gap - target, tolerance));
             }
         }
-        print_message("%-10s: %d of %d hit; at most %.1g m too deep, %.2g m too early\n",
-                      cases[k].name, hits, searched, fmax(late, 0), early);
+        print_message(
+            "%-10s: %d of %d hit; at most %.1g m too deep, %.2g m too early; %d given up\n",
+            cases[k].name, hits, searched, fmax(late, 0), early, given_up);
         assert_true(hits > searched / 20 && hits < searched);
+        // What meets only when two corners come there at once may take many turns to tell.
+        assert_true(given_up <= (cases[k].turns > 8 ? searched / 60 : 0));
     }
 }
 

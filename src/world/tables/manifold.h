@@ -201,6 +201,7 @@ typedef struct pl_lookahead {
     pl_buffer unread;     // what else a kernel writes
     pl_buffer kept;       // what pairs had whose manifolds became others (settle.c)
     uint32_t kept_count;
+    uint32_t looks; // contacts that were looked at in this step, each as often as it was
     pl_buffer map, paths; // of bodies that have such contacts: where, pl_way
     pl_buffer listed;     // uint32_t a candidate: 1 + its item; 0: none
     pl_buffer meetings;   // pl_keyed: items that meet, by time
