@@ -53,8 +53,8 @@ typedef struct plumb_wave_sample {
     plumb_real rate;   ///< [m/s] at which it rises
 } plumb_wave_sample;
 
-/// Gives the surface of a shape waves, flat at first. Errors: E_NULL, E_HANDLE, E_RANGE, E_NOT_FINITE, E_STATE (it has some; it is no such shape as
-/// above; the world wraps around), E_MEMORY, E_LOCKED.
+/// Gives the surface of a shape waves, flat at first. `desc` may be null (= {0}). Errors: E_NULL, E_HANDLE, E_RANGE, E_NOT_FINITE, E_STATE (it has
+/// some; it is no such shape as above; the world wraps around), E_MEMORY, E_LOCKED.
 PLUMB_API plumb_result plumb_waves_create(plumb_world *world, plumb_shape shape,
                                           const plumb_waves_desc *desc);
 /// Takes them away; so does the end of the shape. Errors: E_NULL, E_HANDLE, E_STATE (it has none), E_LOCKED.
@@ -62,7 +62,7 @@ PLUMB_API plumb_result plumb_waves_destroy(plumb_world *world, plumb_shape shape
 /// The settings in force, defaults resolved. Errors: E_NULL, E_HANDLE, E_STATE (it has none).
 PLUMB_API plumb_result plumb_waves_settings(const plumb_world *world, plumb_shape shape,
                                             plumb_waves_desc *desc);
-/// Changes all settings; of modes that are more now the heights are 0. Errors: as plumb_waves_create.
+/// Changes all settings; of modes that are more now the heights are 0. `desc` may be null (= {0}). Errors: as plumb_waves_create.
 PLUMB_API plumb_result plumb_waves_set(plumb_world *world, plumb_shape shape,
                                        const plumb_waves_desc *desc);
 /// Sets the first `count` modes, mode 1 first, and flattens the rest: a splash, a wave that was measured. Errors: E_NULL, E_HANDLE, E_STATE (it has

@@ -92,13 +92,16 @@ static const char *unfit(const plumb_world *world, uint32_t first, const pl_basi
 
 //---- made, changed -------------------------------------------------------------------------------
 
+// What no descriptor at all means.
+static const plumb_waves_desc defaults = { 0 };
+
 plumb_result plumb_waves_create(plumb_world *world, plumb_shape shape, const plumb_waves_desc *desc)
 {
     uint32_t first;
     PL_TRY(pl_check_shape(world, __func__, shape, &first));
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(PL_CHECK_HAS(world, __func__, "waves", WAVES, "waves"));
-    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    desc = desc == NULL ? &defaults : desc;
     if (pl_waves_of(world, shape) != NULL) {
         return pl_fail(world, PLUMB_E_STATE, __func__, "the shape has waves; it must have none");
     }
@@ -155,7 +158,7 @@ plumb_result plumb_waves_set(plumb_world *world, plumb_shape shape, const plumb_
     pl_wave_surface *surface;
     PL_TRY(check_waves(world, __func__, shape, &surface));
     PL_TRY(pl_check_unlocked(world, __func__));
-    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    desc = desc == NULL ? &defaults : desc;
     PL_TRY(check_desc(world, __func__, desc));
     const pl_basin basin = pl_basin_of(world, surface);
     const plumb_waves_desc full = resolved(desc, &basin);

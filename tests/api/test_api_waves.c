@@ -71,6 +71,25 @@ static void run(plumb_world *w, int steps)
 
 //---- calls ---------------------------------------------------------------------------------------
 
+static void no_descriptor_means_the_defaults(void **state)
+{
+    (void)state;
+    plumb_waves_desc zero = { 0 }, told[3];
+    bay b = make_bay((plumb_world_desc){ 0 });
+    assert_int_equal(plumb_waves_create(b.w, b.water, &zero), PLUMB_OK);
+    assert_int_equal(plumb_waves_settings(b.w, b.water, &told[0]), PLUMB_OK);
+    assert_int_equal(plumb_waves_destroy(b.w, b.water), PLUMB_OK);
+    assert_int_equal(plumb_waves_create(b.w, b.water, NULL), PLUMB_OK);
+    assert_int_equal(plumb_waves_settings(b.w, b.water, &told[1]), PLUMB_OK);
+    zero.modes = 8;
+    assert_int_equal(plumb_waves_set(b.w, b.water, &zero), PLUMB_OK);
+    assert_int_equal(plumb_waves_set(b.w, b.water, NULL), PLUMB_OK);
+    assert_int_equal(plumb_waves_settings(b.w, b.water, &told[2]), PLUMB_OK);
+    assert_memory_equal(&told[0], &told[1], sizeof told[0]);
+    assert_memory_equal(&told[0], &told[2], sizeof told[0]);
+    plumb_world_destroy(b.w);
+}
+
 static void bad_settings_are_refused(void **state)
 {
     (void)state;
@@ -79,7 +98,6 @@ static void bad_settings_are_refused(void **state)
     const plumb_real bad[] = { R(NAN), R(INFINITY), PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
     plumb_waves_desc d = { .modes = 8 };
     assert_int_equal(plumb_waves_create(NULL, b.water, &d), PLUMB_E_NULL);
-    assert_int_equal(plumb_waves_create(w, b.water, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_waves_create(w, (plumb_shape)PLUMB_NULL_INIT, &d), PLUMB_E_HANDLE);
     for (int made = 0; made < 2; ++made) {
         plumb_real *const members[] = { &d.damping, &d.height, &d.swell, &d.swell_length };
@@ -578,6 +596,7 @@ static void any_allocation_may_fail(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_descriptor_means_the_defaults),
         cmocka_unit_test(bad_settings_are_refused),
         cmocka_unit_test(shapes_that_cannot_have_waves),
         cmocka_unit_test(a_surface_is_asked),
