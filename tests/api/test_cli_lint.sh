@@ -130,6 +130,14 @@ rule overlap 0.4 0.5 <<'END'
 body { type = "static", box { 10, 1 }, at = {0, -0.5} }
 body { name = "crate", box { 1, 1 }, at = {0, @} }
 END
+for joint in revolute prismatic weld wheel; do
+    rule far-anchor '{0, 0}' '{40.5, 1}' <<END
+scene { gravity = {0, 0} }
+local left = body { name = "left", box { 1, 1 }, at = {40, 1} }
+local right = body { name = "right", box { 1, 1 }, at = {41, 1} }
+$joint { left, right, at = @ }
+END
+done
 rule size 0.004 0.04 <<'END'
 body { name = "needle", box { 1, @ }, at = {0, 2} }
 END

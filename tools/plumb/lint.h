@@ -21,6 +21,8 @@
       "1 or less; a bumper that is meant says so")                                                                          \
     X("overlap", overlaps, "bodies begin inside one another and are pushed apart",                                   \
       "move them apart, let their filters not meet, or join them")                                                           \
+    X("far-anchor", anchors, "a joint holds two bodies at a point far outside of both",                              \
+      "at = {x, y} is in the world's coordinates; a lever that is meant says so")                                    \
     X("size", sizes, "a body is thinner or thicker than is measured, or too far from the origin for its size",       \
       "other units of length, thicker shapes, places near the origin, or double precision")                                \
     X("units", units, "a number looks like degrees, pixels, a density of another unit, or a y that points down",            \
