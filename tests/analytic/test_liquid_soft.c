@@ -1,5 +1,6 @@
 // test_liquid_soft.c - soft bodies in the liquid that flows: how deep they float, what water presses them together by, and that no
 // lightness, stiffness, press or start under water throws them. What was measured stands in src/liquid/DECISIONS.md.
+// PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

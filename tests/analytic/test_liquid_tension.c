@@ -1,5 +1,6 @@
 // test_liquid_tension.c - surface tension of the liquid against closed forms: drops and pools at rest, waves of drops (Rayleigh) and of
 // pools, squares that turn into drops, drops that merge.
+// PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

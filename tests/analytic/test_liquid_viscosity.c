@@ -1,5 +1,6 @@
 // test_liquid_viscosity.c - viscosity of the liquid against closed forms: flow between a lid that moves and a floor, the
 // lid-driven cavity (Ghia, Ghia, Shin 1982), a drop that spins on, pitch that stands.
+// PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -202,7 +202,8 @@ test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples $(if $(filter %/test_cost
 	$(if $(filter %/test_referee.sh,$(RUN_SH)),$(O)/referee)
 
 # What does not build must not hide what does: every test is still run, those that have no up to date
-# program count as failed, and the last line is the sum of the whole run.
+# program count as failed, and the last line is the sum of the whole run. Scripts first: the longest of all are among them, and
+# what ends last should be short.
 test: | $(DEPS_FIRST)
 	@$(MAKE) --no-print-directory -k test-programs || \
 		$(MAKE) --no-print-directory -k ONE_EACH=1 test-programs || { \
@@ -210,7 +211,7 @@ test: | $(DEPS_FIRST)
 		for p in $(RUN_PROGRAMS) $(O)/plumb $(O)/cost-suite $(O)/referee; do \
 			$(MAKE) -q $$p >/dev/null 2>&1 || rm -f $$p; \
 		done; }
-	@O=$(O) SAN=$(SAN) bash tests/run.sh -j $(JOBS) -l $(O)/test-logs $(RUN_PROGRAMS) $(RUN_SH)
+	@O=$(O) SAN=$(SAN) bash tests/run.sh -j $(JOBS) -l $(O)/test-logs $(RUN_SH) $(RUN_PROGRAMS)
 
 STABILITY := $(wildcard tests/stability/test_*)
 SCENES ?= $(sort $(wildcard assets/scenes/*.lua))
