@@ -19,6 +19,11 @@ PLUMB_BEGIN
 #define PLUMB_WORK_LIST(X)                                                                              \
     X(GRAVITY,  gravity,  "work of gravity, and what bodies gave for it in height")                      \
     X(FORCES,   forces,   "forces and torques of the user's; systems of the substep")                    \
+    X(FLUIDS,   fluids,   "volumes of water and wind: what lifts, drags and carries, and the mass they lend") \
+    X(LIQUID,   liquid,   "liquid and air that flow")                                                    \
+    X(LAWS,     laws,     "forces at a distance, zones, magnetic fields; orbits")                        \
+    X(THRUST,   thrust,   "engines, and the fuel that they burn")                                        \
+    X(SOFT,     soft,     "ropes, cloth, jelly and skins that touch or hold bodies")                     \
     X(NORMAL,   normal,   "contacts along their normals: blows that do not bounce, platforms that lift") \
     X(FRICTION, friction, "contacts along their surfaces, rolling resistance, friction joints")          \
     X(IMPACTS,  impacts,  "blows that bounce, friction in them too")                                     \
@@ -29,7 +34,7 @@ PLUMB_BEGIN
     X(DAMPING,  damping,  "damping and caps of speed")                                                   \
     X(SLEEP,    sleep,    "falling asleep and waking")                                                   \
     X(STOPS,    stops,    "bodies put back to where they would have passed into something")              \
-    X(SYSTEMS,  systems,  "systems and characters that set places or velocities; worlds that wrap")      \
+    X(SYSTEMS,  systems,  "systems that set places or velocities; characters; worlds that wrap")         \
     X(REST,     rest,     "unexplained: rounding, and what no row above has")
 // clang-format on
 

@@ -18,8 +18,8 @@
 
 void pl_measure_free(pl_memory *memory, pl_measure *m)
 {
-    pl_buffer *buffers[] = { &m->last,    &m->bodies,  &m->flights,  &m->bundles, &m->extras,
-                             &m->classic, &m->records, &m->impulses, &m->found };
+    pl_buffer *buffers[] = { &m->last,   &m->bodies,  &m->flights, &m->pushes,   &m->bundles,
+                             &m->extras, &m->classic, &m->records, &m->impulses, &m->found };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -74,6 +74,52 @@ static double mechanical(const plumb_world *world)
            mechanical_of(world, pl_partition_first(world, PL_PART_ASLEEP), world->asleep_count);
 }
 
+//---- what pushes before the step -----------------------------------------------------------------
+
+plumb_work pl_measure_steady(int i)
+{
+    return i == PL_STEADY_LIQUID ? PLUMB_WORK_LIQUID : PLUMB_WORK_SYSTEMS;
+}
+
+// Which of them a row is; PL_STEADY_WORKS: none.
+static int steady_of(pl_once_fn *run)
+{
+    return run == pl_run_liquid || run == pl_run_air ? PL_STEADY_LIQUID
+           : run == pl_run_characters                ? PL_STEADY_CHARACTERS
+                                                     : PL_STEADY_WORKS;
+}
+
+// NULL: the body was made in this very step, and what pushes it counts as the user's.
+static pl_measured_push *push_on(const plumb_world *world, uint32_t row)
+{
+    const uint32_t slot = world->bodies.entity[row].entity.index;
+    return slot < world->measure.push_slots ? (pl_measured_push *)world->measure.pushes.data + slot
+                                            : NULL;
+}
+
+// Notes the forces of rows [first, first + count), or, behind the row that pushes, what it added.
+static void note_pushes(plumb_world *world, uint32_t first, uint32_t count, int work, bool behind)
+{
+    const pl_bodies *b = &world->bodies;
+    for (uint32_t row = first; row < first + count; ++row) {
+        const double now[] = { (double)b->fx[row], (double)b->fy[row], (double)b->torque[row] };
+        pl_measured_push *push = push_on(world, row);
+        for (int i = 0; i < 3 && push != NULL; ++i) {
+            push->of[work][i] += behind ? now[i] - push->before[i] : 0;
+            push->before[i] = now[i];
+        }
+    }
+}
+
+static void note_all_pushes(plumb_world *world, int work, bool behind)
+{
+    if (work < PL_STEADY_WORKS) {
+        note_pushes(world, 0, world->dynamic_count, work, behind);
+        note_pushes(world, pl_partition_first(world, PL_PART_ASLEEP), world->asleep_count, work,
+                    behind); // who is pushed wakes, later on
+    }
+}
+
 //---- free flight ---------------------------------------------------------------------------------
 
 static void note_flights(plumb_world *world)
@@ -88,6 +134,12 @@ static void note_flights(plumb_world *world)
     }
 }
 
+// [J] of a force and torque over a way and a turn.
+static double work_along(const double force[3], double x, double y, double turn)
+{
+    return force[0] * x + force[1] * y + force[2] * turn;
+}
+
 // What a body that no contact or joint has to do with did in the step.
 static void book_flight(plumb_world *world, uint32_t row, double dt)
 {
@@ -100,18 +152,25 @@ static void book_flight(plumb_world *world, uint32_t row, double dt)
     const double dvx = (double)b->vx[row] - f->vx, dvy = (double)b->vy[row] - f->vy,
                  dw = (double)b->w[row] - f->w;
     const double vx = f->vx + dvx / 2, vy = f->vy + dvy / 2, w = f->w + dw / 2;
+    const double turn = own_inertia(b, row) > 0 ? time * w : 0;
     const plumb_vec2 g = world->effects.gravity, told = world->gravity;
     const double pulled = time * m * scale * ((double)g.x * vx + (double)g.y * vy);
     const double pushed =
-        time * (f->fx * vx + f->fy * vy + (own_inertia(b, row) > 0 ? f->torque * w : 0));
+        work_along((double[]){ f->fx, f->fy, f->torque }, time * vx, time * vy, turn);
+    const pl_measured_push *push = push_on(world, row);
     work[PLUMB_WORK_GRAVITY].kinetic += pulled;
     work[PLUMB_WORK_GRAVITY].potential -= m * scale *
                                           ((double)told.x * ((double)b->center_x[row] - f->x) +
                                            (double)told.y * ((double)b->center_y[row] - f->y));
     work[PLUMB_WORK_FORCES].kinetic += pushed;
+    for (int i = 0; i < PL_STEADY_WORKS && push != NULL; ++i) {
+        const double done = work_along(push->of[i], time * vx, time * vy, turn);
+        work[pl_measure_steady(i)].kinetic += done;
+        work[PLUMB_WORK_FORCES].kinetic -= done;
+    }
     const bool orbits = world->laws.step.flies && pl_law_way_of(world, row) == PL_LAW_FLIES;
     if (has_effects || orbits) {
-        work[orbits ? PLUMB_WORK_FORCES : PLUMB_WORK_DAMPING].kinetic +=
+        work[orbits ? PLUMB_WORK_LAWS : PLUMB_WORK_DAMPING].kinetic +=
             m * (dvx * vx + dvy * vy) + own_inertia(b, row) * dw * w - pulled - pushed;
     }
 }
@@ -152,6 +211,7 @@ static void book_motion(plumb_world *world, double dt)
 
 void pl_measure_before(plumb_world *world, pl_once_fn *run)
 {
+    note_all_pushes(world, steady_of(run), false);
     if (run == pl_run_motion) {
         note_flights(world);
     }
@@ -164,14 +224,14 @@ static bool is_counted(pl_once_fn *run, plumb_work *work)
         plumb_work work;
     } rows[] = { { NULL, PLUMB_WORK_SYSTEMS },
                  { pl_run_characters, PLUMB_WORK_SYSTEMS },
-                 { pl_run_liquid, PLUMB_WORK_SYSTEMS },
-                 { pl_run_air, PLUMB_WORK_SYSTEMS },
+                 { pl_run_liquid, PLUMB_WORK_LIQUID },
+                 { pl_run_air, PLUMB_WORK_LIQUID },
                  { pl_run_waking, PLUMB_WORK_SLEEP },
                  { pl_run_sleep, PLUMB_WORK_SLEEP },
                  { pl_run_continuous, PLUMB_WORK_STOPS },
                  { pl_run_edges, PLUMB_WORK_SYSTEMS },
                  { pl_run_breaking, PLUMB_WORK_SYSTEMS },
-                 { pl_run_burning, PLUMB_WORK_FORCES } };
+                 { pl_run_burning, PLUMB_WORK_THRUST } };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         if (rows[i].run == run) {
             *work = rows[i].work;
@@ -185,6 +245,7 @@ void pl_measure_after(plumb_world *world, pl_once_fn *run, plumb_real dt)
 {
     pl_measure *m = &world->measure;
     plumb_work work;
+    note_all_pushes(world, steady_of(run), true);
     if (run == pl_run_motion) {
         book_motion(world, (double)dt);
         m->mechanical = mechanical(world);
@@ -201,8 +262,14 @@ plumb_result pl_run_measure_open(plumb_world *world, plumb_real dt)
 {
     (void)dt;
     pl_measure *m = &world->measure;
-    if (!pl_buffer_reserve(&world->memory, &m->last, sizeof(plumb_measures))) {
+    const uint32_t slots = world->registry.count;
+    if (!pl_buffer_reserve(&world->memory, &m->last, sizeof(plumb_measures)) ||
+        !pl_buffer_reserve(&world->memory, &m->pushes, slots * sizeof(pl_measured_push))) {
         return PLUMB_E_MEMORY;
+    }
+    m->push_slots = slots;
+    if (slots > 0) {
+        memset(m->pushes.data, 0, slots * sizeof(pl_measured_push));
     }
     *pl_measures_last(m) = (plumb_measures){ .step = 0 };
     m->mechanical = mechanical(world);
@@ -250,6 +317,11 @@ static void open_body(const plumb_world *world, uint32_t row, uint32_t slot)
                             .weight_x = weight * (double)told.x,
                             .weight_y = weight * (double)told.y,
                             .ease = pl_solver_bodies(&world->solver)[slot].inv_inertia };
+    const pl_measured_push *push = push_on(world, row);
+    if (push != NULL) {
+        pl_measured_body *body = (pl_measured_body *)world->measure.bodies.data + slot;
+        memcpy(body->steady, push->of, sizeof body->steady);
+    }
 }
 
 plumb_result pl_run_measure_bodies(plumb_world *world, plumb_real dt)

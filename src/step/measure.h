@@ -12,6 +12,9 @@ typedef plumb_result pl_once_fn(plumb_world *world, plumb_real dt);
 void pl_measure_before(plumb_world *world, pl_once_fn *run);
 void pl_measure_after(plumb_world *world, pl_once_fn *run, plumb_real dt);
 
+// Whose work it is what pushes all step long: PL_STEADY_...
+plumb_work pl_measure_steady(int i);
+
 // Around rows of the substeps.
 void pl_measure_before_row(pl_substep *s);
 void pl_measure_after_row(pl_substep *s);

@@ -21,7 +21,7 @@
 
 // What is to be found out about a row.
 typedef enum row_kind {
-    ROW_MOMENT,  // changes accelerations
+    ROW_MOMENT,  // an effect: changes accelerations, or velocities
     ROW_DAMPING, // likewise, anew in each substep
     ROW_INTEGRATE, // gives what accelerations make of the substep, and by the soft step the impulses so far
     ROW_WARM_JOINTS,
@@ -44,6 +44,10 @@ typedef struct row_rule {
 
 static const row_rule rules[] = {
     { pl_damping_row, ROW_DAMPING, PLUMB_WORK_DAMPING },
+    { pl_fluid_row, ROW_MOMENT, PLUMB_WORK_FLUIDS },
+    { pl_law_row, ROW_MOMENT, PLUMB_WORK_LAWS },
+    { pl_softbodies_row, ROW_MOMENT, PLUMB_WORK_SOFT },
+    { pl_thrust_row, ROW_MOMENT, PLUMB_WORK_THRUST },
     { pl_drag_row, ROW_MOMENT, PLUMB_WORK_DAMPING },
     { pl_caps_row, ROW_MOMENT, PLUMB_WORK_DAMPING },
     { pl_acting_reset, ROW_WORK, PLUMB_WORK_REST },
@@ -74,7 +78,7 @@ static const row_rule rules[] = {
     { pl_classic_move, ROW_WORK, PLUMB_WORK_GRAVITY },
 };
 
-// Rows that no rule names: systems and those of the moment are forces, and else nobody knows.
+// Rows that no rule names: systems, and what else is of the moment, are forces, and else nobody knows.
 static row_rule rule_of(const pl_substep *s)
 {
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; ++i) {
@@ -216,15 +220,31 @@ static void add_kick(pl_measured_body *b, plumb_work work, double x, double y, d
     b->work[work].kinetic += x * b->mean_x + y * b->mean_y + turn * b->mean_w;
 }
 
+static void book_force(pl_measured_body *b, plumb_work work, const double force[3], double h)
+{
+    add_kick(b, work, h * force[0], h * force[1], h * force[2]);
+}
+
+// Whom an acceleration comes from: what nobody else has is the user's.
 static void book_accelerations(pl_measured_body *b, const pl_solver_motion *motion, double h)
 {
-    const double x = b->mass * (double)motion->ax - b->pull_x - b->drag_x;
-    const double y = b->mass * (double)motion->ay - b->pull_y - b->drag_y;
-    const double turn = b->inertia * (double)motion->aw - b->drag_w;
+    double left[3] = { b->mass * (double)motion->ax - b->pull_x,
+                       b->mass * (double)motion->ay - b->pull_y, b->inertia * (double)motion->aw };
     add_kick(b, PLUMB_WORK_GRAVITY, h * b->pull_x, h * b->pull_y, 0);
-    add_kick(b, PLUMB_WORK_DAMPING, h * b->drag_x, h * b->drag_y, h * b->drag_w);
-    add_kick(b, PLUMB_WORK_FORCES, h * x, h * y, h * turn);
-    b->drag_x = b->drag_y = b->drag_w = 0;
+    for (int i = 0; i < PLUMB_WORKS; ++i) {
+        book_force(b, (plumb_work)i, b->push[i], h);
+        for (int k = 0; k < 3; ++k) {
+            left[k] -= b->push[i][k];
+        }
+    }
+    for (int i = 0; i < PL_STEADY_WORKS; ++i) {
+        book_force(b, pl_measure_steady(i), b->steady[i], h);
+        for (int k = 0; k < 3; ++k) {
+            left[k] -= b->steady[i][k];
+        }
+    }
+    book_force(b, PLUMB_WORK_FORCES, left, h);
+    memset(b->push, 0, sizeof b->push);
 }
 
 // A share of the kick that is given now, or taken back.
@@ -244,15 +264,15 @@ static void book_drift(pl_measured_body *b, const pl_solver_body *body, double s
     book_share(b, share);
 }
 
-// What damping and caps make of an acceleration. Where no row has reset it, damping began from the step's own.
-static void note_drag(const pl_substep *s, uint32_t slot, pl_measured_body *b, row_kind kind)
+// What an effect makes of an acceleration. Where no row has reset it, damping began from the step's own.
+static void note_push(const pl_substep *s, uint32_t slot, pl_measured_body *b, row_rule rule)
 {
     const plumb_world *world = s->world;
     const pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
     double from[] = { b->ax, b->ay, b->aw };
     const bool is_new = motion->ax != (near_real)b->ax || motion->ay != (near_real)b->ay ||
                         motion->aw != (near_real)b->aw;
-    if (kind == ROW_DAMPING && !world->effects.resets) {
+    if (rule.kind == ROW_DAMPING && !world->effects.resets) {
         const near_real *base = (const near_real *)world->effects.bases.data + (size_t)slot * 4;
         for (int i = 0; i < 3; ++i) {
             from[i] = (double)base[i];
@@ -260,9 +280,9 @@ static void note_drag(const pl_substep *s, uint32_t slot, pl_measured_body *b, r
     } else if (!is_new) {
         return;
     }
-    b->drag_x += b->mass * ((double)motion->ax - from[0]);
-    b->drag_y += b->mass * ((double)motion->ay - from[1]);
-    b->drag_w += b->inertia * ((double)motion->aw - from[2]);
+    b->push[rule.work][0] += b->mass * ((double)motion->ax - from[0]);
+    b->push[rule.work][1] += b->mass * ((double)motion->ay - from[1]);
+    b->push[rule.work][2] += b->inertia * ((double)motion->aw - from[2]);
 }
 
 // The push that the sweeps over contacts gave for overlaps is in the ways of the substep, and is gone from the
@@ -360,12 +380,18 @@ static void share_out(const pl_substep *s, row_kind kind)
     }
 }
 
+// An impulse moves the mass that a fluid lends as well, and what of it that takes is the fluid's. Fuel that burns makes a body lighter.
+static plumb_work lender_of(const pl_measured_body *b)
+{
+    return b->met > b->mass ? PLUMB_WORK_FLUIDS : PLUMB_WORK_THRUST;
+}
+
 // What the exact solver did: half of the forces' kick, back or forth, the impulses, booked by now, and the rest, which is
 // what turning made of them, and bodies that nothing pushes, which keep the kick whole.
 static void book_exact(pl_measured_body *b, const pl_solver_body *body, double share)
 {
     book_share(b, share);
-    const plumb_work rest = b->borrows ? PLUMB_WORK_FORCES : PLUMB_WORK_NORMAL;
+    const plumb_work rest = b->borrows ? lender_of(b) : PLUMB_WORK_NORMAL;
     b->work[rest].kinetic += gained(b, body) - (booked(b) - b->booked);
 }
 
@@ -377,7 +403,8 @@ static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
     if (rule.kind == ROW_WORK) {
         book_all(b, body, rule.work);
     } else if (rule.kind == ROW_DAMPING || rule.kind == ROW_MOMENT) {
-        note_drag(s, slot, b, rule.kind);
+        book_all(b, body, rule.work); // of magnetic fields, which turn velocities
+        note_push(s, slot, b, rule);
     } else if (rule.kind == ROW_HALVE || rule.kind == ROW_DRIFT) {
         const double share = (double)pl_kick_behind(solver->kicked.data, slot);
         if (rule.kind == ROW_HALVE) {
@@ -397,9 +424,8 @@ static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
     // links that flutter: what that does is theirs.
     const bool joints_know =
         body->inv_inertia != b->ease || (s->solving->any_joints && pl_joints_direct(s->world));
-    // An impulse moves the mass that a fluid lends as well, and what of it that takes is the fluid's.
     if ((joints_know || b->borrows) && rule.kind != ROW_WORK) {
-        b->work[b->borrows ? PLUMB_WORK_FORCES : PLUMB_WORK_JOINTS].kinetic +=
+        b->work[b->borrows ? lender_of(b) : PLUMB_WORK_JOINTS].kinetic +=
             gained(b, body) - (booked(b) - b->booked);
     }
 }

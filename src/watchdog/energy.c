@@ -15,6 +15,7 @@
 #include "joints/energy.h"
 #include "world/body_settings.h"
 #include "world/joint_list.h"
+#include "world/measured.h"
 
 static pl_watched_flight *flights(const plumb_world *world)
 {
@@ -62,7 +63,7 @@ static bool measured(const plumb_world *world, uint32_t row, double *joules)
         return false;
     }
     const pl_measured_body *m = (const pl_measured_body *)world->measure.bodies.data + slots[row];
-    *joules = m->work[PLUMB_WORK_FORCES].kinetic + m->work[PLUMB_WORK_MOTORS].kinetic;
+    *joules = pl_measure_driven(m);
     return true;
 }
 

@@ -23,6 +23,19 @@ static inline void pl_measure_push(const pl_measuring *m, uint32_t slot, double 
     }
 }
 
+// [J] that a body was given by what drives it: forces, effects, motors, characters.
+static inline double pl_measure_driven(const pl_measured_body *b)
+{
+    static const plumb_work drives[] = { PLUMB_WORK_FORCES, PLUMB_WORK_FLUIDS, PLUMB_WORK_LIQUID,
+                                         PLUMB_WORK_LAWS,   PLUMB_WORK_THRUST, PLUMB_WORK_SOFT,
+                                         PLUMB_WORK_MOTORS, PLUMB_WORK_SYSTEMS };
+    double sum = 0;
+    for (size_t i = 0; i < sizeof drives / sizeof drives[0]; ++i) {
+        sum += b->work[drives[i]].kinetic;
+    }
+    return sum;
+}
+
 static inline void pl_measure_most(double *most, double value)
 {
     *most = value > *most ? value : *most;

@@ -6,6 +6,9 @@
 #include "core/near.h"
 #include "plumb/measure.h"
 
+// What pushes bodies all step long, by their columns of forces: pl_measure_steady has the work of each.
+enum { PL_STEADY_LIQUID, PL_STEADY_CHARACTERS, PL_STEADY_WORKS };
+
 // A dynamic body in the solver.
 typedef struct pl_measured_body {
     double mass, inertia;  // as the solver has it: own time counts
@@ -18,7 +21,8 @@ typedef struct pl_measured_body {
     double ax, ay, aw;             // likewise, accelerations
     double booked;                 // [J] likewise, the sum of all kinetic work
     double mean_x, mean_y, mean_w; // velocity, mean of before and behind the row
-    double drag_x, drag_y, drag_w; // [N], [N m] of damping and caps in this substep
+    double push[PLUMB_WORKS][3];   // [N], [N m] of effects: in this substep
+    double steady[PL_STEADY_WORKS][3]; // likewise, all step long
     double px, py, pw;             // [N s], [N m s] impulses of contacts and joints
     plumb_balance work[PLUMB_WORKS]; // in this step
     double kick[PLUMB_WORKS][3];     // [N s], [N m s] of what this substep kicked with (halves.c)
@@ -28,6 +32,12 @@ typedef struct pl_measured_body {
 typedef struct pl_measured_flight {
     double vx, vy, w, x, y, fx, fy, torque;
 } pl_measured_flight;
+
+// [N], [N m] a registry slot: by what, and its forces as a row that pushes began.
+typedef struct pl_measured_push {
+    double of[PL_STEADY_WORKS][3];
+    double before[3];
+} pl_measured_push;
 
 // Of what joints owe because J has turned (joints/one.c).
 typedef enum pl_measured_debt {
@@ -57,6 +67,8 @@ typedef struct pl_measure {
     double stored;     // [J] as the step began
     pl_buffer bodies;  // pl_measured_body a dynamic slot
     pl_buffer flights; // pl_measured_flight a dynamic row
+    pl_buffer pushes;  // pl_measured_push a registry slot
+    uint32_t push_slots;
     // Copies of the solver's and the joints' buffers of these names, before the row that runs.
     pl_buffer bundles, extras, classic, records, impulses;
     pl_buffer found; // pl_measuring a thread: residuals
