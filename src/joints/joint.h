@@ -159,6 +159,7 @@ typedef struct pl_joint_context {
     real h;                 // [s] substep
     bool exact;             // of hard islands
     pl_joint_soft rigid;    // of rows that are no springs, where they pull
+    double recovery; // [-] of joints solved together: substep over that which they are as stiff for
 } pl_joint_context;
 
 // `thread`: whose room for records it takes; `soft` [s]: the substep that rigid rows are as stiff for.

@@ -118,8 +118,9 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
     const bool fine = i == step->world->solver.fine_cluster;
     const int times = fine ? pl_fine_times(step->world) : 1;
     const near_real h = step->call.h / (near_real)times;
-    const pl_joint_context joints =
+    pl_joint_context joints =
         pl_joint_context_of(step->world, i, tasks, thread, (real)h, (real)step->soft_substep);
+    joints.recovery = (double)step->call.h / (double)step->soft_substep;
     pl_solving solving = { .step = step,
                            .call = call_of(step, cluster, thread),
                            .joints = &joints,

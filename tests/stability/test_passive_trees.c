@@ -136,6 +136,29 @@ static void none_gains_energy(void **state)
     assert_int_equal(bad, 0);
 }
 
+// Steps from 100 us to a tenth of a second in any order. What a long step had torn open by centimetres the next one, a thousandth as
+// long, closed by a third, at any speed: 23 of 100 trees of hinges flew to pieces, the worst with 1e19 times its energy.
+static void none_gains_energy_whatever_the_steps(void **state)
+{
+    (void)state;
+    const trials all = trials_from(1, 60);
+    double worst = 0;
+    for (uint32_t seed = all.first; seed < all.end; ++seed) {
+        tree t = tree_of(seed);
+        uint32_t steps = seed * 77 + 5;
+        const double before = energy_of(t.world);
+        double most = before;
+        for (int i = 0; i < 1200; ++i) {
+            sim_step(t.world, exp(sim_uniform(&steps, log(1e-4), log(0.1))));
+            most = fmax(most, energy_of(t.world));
+        }
+        worst = fmax(worst, (most - before) / t.weight);
+        plumb_world_destroy(t.world);
+    }
+    print_message("with steps of any length the most is %.2g of what a tree weighs\n", worst);
+    assert_true(worst < 0.05);
+}
+
 static const plumb_joint_kind stiff[] = { PLUMB_WELD, PLUMB_PRISMATIC, PLUMB_MOTOR };
 
 static plumb_joint_desc stiff_one(uint32_t which, plumb_body a, plumb_body b)
@@ -221,6 +244,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(none_gains_energy),
+        cmocka_unit_test(none_gains_energy_whatever_the_steps),
         cmocka_unit_test(far_anchors_leave_at_rest),
         cmocka_unit_test(far_anchors_give_nothing_in_flight),
         cmocka_unit_test(a_far_motor_joint_holds),
