@@ -345,7 +345,7 @@ void cost_put_terminal(FILE *script, const char *path, int width, int height)
             "set encoding utf8\n"
             "set border 3 lc rgb '#8a9299'\nset tics nomirror textcolor rgb '#30363c'\n"
             "set grid lc rgb '#dfe3e6' lt 1 lw 0.7\nset bars small\n"
-            "set key outside below horizontal height 1 samplen 1.2 spacing 1.1\n",
+            "set key outside below horizontal maxcols 3 height 1 samplen 1.2 spacing 1.1\n",
             is_png(path) ? "pngcairo" : "svg", width, height);
 }
 
