@@ -85,12 +85,7 @@ static void take_piece(pl_search *s, uint32_t piece)
     s->swept = pl_swept_motion_piece(s->world, piece, &s->motion);
     s->box = pl_swept_motion_box(&s->motion, &s->swept);
     s->half_width = pl_piece_half_width(s->world, piece, false);
-    double reach_sq = 0;
-    for (int i = 0; i < s->swept.count; ++i) {
-        double x = s->swept.x[i], y = s->swept.y[i];
-        reach_sq = x * x + y * y > reach_sq ? x * x + y * y : reach_sq;
-    }
-    s->reach = sqrt(reach_sq) + s->swept.radius;
+    s->reach = pl_swept_reach(&s->swept);
 }
 
 // Whether the piece, wherever it has turned, stays clear of a box to one side of its way.

@@ -151,14 +151,11 @@ static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
 
 //---- joints ----------------------------------------------------------------------------------------------
 
-// What a row strives for; what undoes errors counts by the share of the moment.
+// What a row strives for.
 static pl_row_law law_of(const pl_exact_system *s, const pl_lone *l, int i, pl_joint_sweep sweep)
 {
     pl_row_law law;
-    pl_row_law_of(l, i, sweep, false, &law);
-    if (pl_row_is_rigid(&l->joint->rows.row[i])) {
-        law.target *= s->recovery;
-    }
+    pl_row_law_of(l, i, sweep, false, s->recovery, &law);
     return law;
 }
 

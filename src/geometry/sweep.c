@@ -405,19 +405,24 @@ static double passes_by(const pl_sweep *s, double apart, double left)
 //---- what turns several times about ----------------------------------------------------------------
 
 // [rad] of a leg from there on a piece is asked first how far its corners reach at all.
-#define WHIRLS (2 * 3.14159265358979323846)
+#define WHIRLS (2 * (double)PLUMB_PI)
+
+double pl_swept_reach(const pl_swept *piece)
+{
+    double square = 0;
+    for (int i = 0; i < piece->count; ++i) {
+        square = pl_greater(square, piece->x[i] * piece->x[i] + piece->y[i] * piece->y[i]);
+    }
+    return sqrt(square) + piece->radius;
+}
 
 // What a piece passes over while it turns, as one that does not.
 static pl_swept whirl_of(const pl_swept *piece)
 {
     pl_swept disc = *piece;
-    double square = 0;
-    for (int i = 0; i < piece->count; ++i) {
-        square = pl_greater(square, piece->x[i] * piece->x[i] + piece->y[i] * piece->y[i]);
-    }
     disc.count = 1;
     disc.x[0] = disc.y[0] = disc.angle = 0;
-    disc.radius += sqrt(square);
+    disc.radius = pl_swept_reach(piece);
     return disc;
 }
 

@@ -19,6 +19,9 @@ typedef struct pl_swept {
     double angle;  // [rad] turned from 0 to 1, whole turns included
 } pl_swept;
 
+// [m] how far from its pivot a piece reaches, however it is turned.
+double pl_swept_reach(const pl_swept *piece);
+
 // The distance of two pieces at one time; negative: the least translation that parts them. It
 // holds along a unit normal from B to A.
 typedef struct pl_gap {

@@ -89,10 +89,7 @@ static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep swe
     pl_direct_part *p = &s->parts[column];
     pl_one_take(s->context, s->columns[column].joint, &p->lone);
     for (int i = 0; i < p->lone.joint->rows.count; ++i) {
-        pl_row_law_of(&p->lone, i, sweep, true, &p->law[i]);
-        if (pl_row_is_rigid(&p->lone.joint->rows.row[i])) {
-            p->law[i].target *= s->context->recovery;
-        }
+        pl_row_law_of(&p->lone, i, sweep, true, s->context->recovery, &p->law[i]);
         if (p->law[i].in_force) {
             p->at_bound[i] = i >= p->lone.joint->rows.block && begins_at_bound(p, i);
         }

@@ -25,7 +25,8 @@ static void aim_at_spring(const pl_lone *l, int i, bool halves, pl_row_law *out)
                   (halves ? out->give * (double)l->joint->half[i].lag : 0);
 }
 
-void pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool halves, pl_row_law *out)
+void pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool halves, double recovery,
+                   pl_row_law *out)
 {
     const pl_joint *j = l->joint;
     const pl_row *r = &j->rows.row[i];
@@ -51,7 +52,7 @@ void pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool halves, p
     } else if (r->type == PL_ROW_LEAST && r->error > 0) {
         out->target = -back; // may close the gap
     } else {
-        out->target = sweep == PL_SWEEP_PULL ? -RECOVERY * back : 0;
+        out->target = sweep == PL_SWEEP_PULL ? -RECOVERY * back * recovery : 0;
     }
 }
 

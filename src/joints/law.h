@@ -12,9 +12,11 @@ typedef struct pl_row_law {
     double low, high; // [N s]
 } pl_row_law;
 
-// Row i of a joint, in a sweep that pulls or relaxes; `halves`: springs give their impulses in both (spring.c).
+// Row i of a joint, in a sweep that pulls or relaxes; `halves`: springs give their impulses in both (spring.c); `recovery`: share of
+// what errors ask for.
 // Written where it stays: copying what has just been written waits for it, 8 % of a direct solution.
-void pl_row_law_of(const pl_lone *lone, int i, pl_joint_sweep sweep, bool halves, pl_row_law *out);
+void pl_row_law_of(const pl_lone *lone, int i, pl_joint_sweep sweep, bool halves, double recovery,
+                   pl_row_law *out);
 // [N m s] impulse times arm, of A and of B, by such impulses of the rows: what pl_joint_inertia asks for.
 void pl_law_pulls(const pl_joint *j, const double impulse[PL_JOINT_ROWS], near_real pull[2]);
 
