@@ -22,7 +22,7 @@ try "is C17" silent "$cc" -std=c17 $strict -fsyntax-only "$O/plumb.c"
 try "compiles in float for this machine, contraction allowed" \
     silent "$cc" -std=gnu17 -O1 $strict -march=native -ffp-contract=fast -c "$O/plumb.c" -o "$work/plumb.o"
 # A minute and a half each: TRIALS=3 compiles the other precisions, too. Their front end is asked always.
-all=$(awk "BEGIN { print ${TRIALS:-1} >= 3 }")
+all=$(awk "BEGIN { print (${TRIALS:-1} >= 3) }")
 others=(double:PLUMB_DOUBLE far:PLUMB_FAR)
 for other in "${others[@]}"; do
     if [ "$all" = 1 ]; then

@@ -19,13 +19,18 @@ DOUBLE_SRC   := $(filter $(DOUBLE_KINDS:%=tests/%/%),$(TEST_SRC))
 ifneq ($(DOUBLE_SRC),)
 DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_FLOAT_ONLY $(DOUBLE_SRC)),$(DOUBLE_SRC))
 # What takes long and asks nothing of the precision says PLUMB_LONG: in float always, in the others with TRIALS of 3 and more.
-ifeq ($(shell awk 'BEGIN { print ($(or $(TRIALS),1) >= 3) }'),0)
+ALL_OF_IT    := $(shell awk 'BEGIN { print ($(or $(TRIALS),1) >= 3) }')
+ifeq ($(ALL_OF_IT),0)
 DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_LONG $(DOUBLE_SRC)),$(DOUBLE_SRC))
 endif
 endif
 
-# Built and run in the far build.
+# Built and run in the far build. Its solver is that of float, its places are doubles, which have tests of both in the other two:
+# what follows closed forms or stays calm there does so here, and is asked with TRIALS of 3 and more, or where it says PLUMB_FAR.
 FAR_SRC := $(DOUBLE_SRC)
+ifeq ($(ALL_OF_IT),0)
+FAR_SRC := $(filter $(patsubst %,tests/%,unit/% api/% determinism/%) $(if $(DOUBLE_SRC),$(shell grep -l PLUMB_FAR $(DOUBLE_SRC))),$(DOUBLE_SRC))
+endif
 
 TEST_PROGRAMS := $(TEST_SRC:%.c=$(O)/%) $(DOUBLE_SRC:tests/%.c=$(O)/tests-double/%) \
 	$(FAR_SRC:tests/%.c=$(O)/tests-far/%) \
