@@ -109,7 +109,7 @@ static plumb_result observe_one(const void *of, plumb_batch *batch, uint32_t ind
     plumb_result r = PLUMB_OK;
     for (uint32_t j = 0; j < w->view.joint_count; ++j) {
         const plumb_joint joint = w->view.joints[j];
-        plumb_joint_desc now;
+        plumb_joint_desc now = { .kind = PLUMB_REVOLUTE };
         const bool is_there = check_joint(world, w->function, joint) == PLUMB_OK &&
                               plumb_joint_settings(world, joint, &now) == PLUMB_OK;
         r = is_there ? r : PLUMB_E_HANDLE;
