@@ -60,6 +60,8 @@ BASELINE := $(BASELINE_$(MACHINE))
 ifneq ($(filter -O2 -O3,$(CFLAGS)),)
 FRAME := $(if $(SAN),,$(if $(findstring clang,$(CC)),-Wframe-larger-than=16384 -Werror=frame-larger-than,\
 	-Werror=frame-larger-than=16384))
+# Nor may a kernel have vectors that its registers do not hold: GCC takes them to pieces, masks and shuffles lane by lane.
+WHOLE := $(if $(findstring clang,$(CC)),,-Wvector-operation-performance)
 endif
 
 # One set of objects serves the static and the shared library: hidden symbols are as fast as
@@ -161,7 +163,8 @@ clean:
 DEPS := gcc g++ libc6-dev make binutils pkg-config cmake libbox2d-dev libchipmunk-dev libccd-dev libosmesa6-dev \
 	libfreetype-dev fonts-dejavu-core liblua5.4-dev libcmocka-dev libpng-dev libgif-dev \
 	libcjson-dev libsdl2-dev ffmpeg gnuplot-nox mandoc
-DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git gcc-mingw-w64-x86-64-posix
+DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git gcc-mingw-w64-x86-64-posix \
+	gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user
 
 deps:
 	@tools/make/deps.sh $(DEPS)
@@ -215,7 +218,7 @@ define width_rule
 $$(O)/$1/src/%.w$2.o: src/%.simd.c $$(O)/flags | $$(DEPS_FIRST)
 	@mkdir -p $$(@D)
 	@echo "  CC    $$@"
-	$$(Q)$$(CC) $$(LIB_FLAGS) $$(DEFS_$1) -DPL_WIDTH=$2 $$(WIDTH_$2_$$(MACHINE)) -Wno-psabi -c $$< -o $$@
+	$$(Q)$$(CC) $$(LIB_FLAGS) $$(DEFS_$1) -DPL_SIMD=$2 $$(if $$(WIDTH_$2_$$(MACHINE)),$$(WIDTH_$2_$$(MACHINE)) $$(WHOLE)) -Wno-psabi -c $$< -o $$@
 endef
 
 define archive

@@ -83,8 +83,8 @@ typedef struct plumb_world_desc {
                                     ///< see plumb_world_wrapped. Default 0: it has no end
     bool no_continuous;             ///< bodies that move fast may pass through thin things: no sweeps. For worlds
                                     ///< in which it does not matter; bodies that move slowly cost nothing anyway
-    int simd_width;                 ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
-                                    ///< A pure speed setting: every width gives the same bits
+    int simd_width;                 ///< vector registers of the kernels, in floats: 4, 8 or 16; default 0 = best
+                                    ///< measured. A pure speed setting: every width gives the same bits
     bool measure;                   ///< each step measures its own error: see plumb/measure.h. Changes no bit
     bool watchdog;                  ///< each step is watched for what it should never do: see plumb/watchdog.h. Changes no
                                     ///< bit
@@ -230,7 +230,7 @@ typedef struct plumb_stats {
     uint32_t soft_asleep;        ///< of those, asleep
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something
-    int simd_width;              ///< lanes in use
+    int simd_width;              ///< lanes in use: as many as a register holds, but 4 at least (doubles: half)
     plumb_real max_penetration;  ///< [m] deepest overlap after the last step's narrow phase, >= 0
     plumb_real mean_penetration; ///< [m] mean over touching contacts of the deeper point, 0 if apart
     size_t bytes;                ///< [B] memory held by the world

@@ -469,7 +469,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .alarm_count = world->watchdog.total,
         .fast_count = world->continuous.count,
         .stopped_count = world->continuous.stopped_count,
-        .simd_width = world->desc.simd_width,
+        .simd_width = pl_solver_kernels(world)->width,
         .max_penetration = all.max_penetration,
         .mean_penetration = all.touching_count > 0 ? (real)((double)all.sum_penetration *
                                                             PL_DEPTH_UNIT / all.touching_count)

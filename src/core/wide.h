@@ -11,20 +11,38 @@
 
 #include <string.h>
 
-#ifndef PL_WIDTH
-#error "PL_WIDTH must be 4, 8 or 16"
+#ifndef PL_SIMD
+#error "PL_SIMD, the floats of a register, must be 4, 8 or 16"
+#endif
+
+// [B] of a register. Of other machines none has been asked for more than four floats.
+#if defined(__x86_64__)
+#define PL_REGISTER_SIZE (4 * PL_SIMD)
+#else
+#define PL_REGISTER_SIZE 16
+#endif
+
+// Lanes: as many as a register holds, but four at the least, as rows are transposed by fours. GCC takes vectors that no
+// register holds to pieces, shuffles and masks lane by lane: doubles in as many lanes as floats took 2 to 5 times as long
+// (src/solver/DECISIONS.md).
+#if !PL_NEAR_IS_DOUBLE
+#define PL_WIDTH     (PL_REGISTER_SIZE / 4)
+#define PL_WIDE_SIZE (4 * PL_WIDTH) // [B]
+#else
+#define PL_WIDTH     (PL_REGISTER_SIZE == 64 ? 8 : 4)
+#define PL_WIDE_SIZE (8 * PL_WIDTH)
 #endif
 
 // PL_WIDE_NAME(solve) is solve_w8 and so on.
 #define PL_PASTE2(a, b)    a##b
 #define PL_PASTE(a, b)     PL_PASTE2(a, b)
-#define PL_WIDE_NAME(name) PL_PASTE(name##_w, PL_WIDTH)
+#define PL_WIDE_NAME(name) PL_PASTE(name##_w, PL_SIMD)
 
 #define WIDE_INLINE static inline __attribute__((always_inline, unused))
 
 // Parts of a kernel. Lanes of doubles that no register holds live in memory, each one ever written: all parts in one
 // function would have a stack frame of 32 kB.
-#if PL_NEAR_IS_DOUBLE
+#if PL_WIDE_SIZE > PL_REGISTER_SIZE
 #define WIDE_PART static __attribute__((noinline, unused))
 #else
 #define WIDE_PART WIDE_INLINE
@@ -39,9 +57,9 @@ typedef int32_t pl_lane;
 #endif
 
 typedef near_real vf
-    __attribute__((vector_size(PL_WIDTH * sizeof(near_real)), PL_REGISTER(PL_WIDTH * 4)));
+    __attribute__((vector_size(PL_WIDTH * sizeof(near_real)), PL_REGISTER(PL_REGISTER_SIZE)));
 typedef pl_lane vm // masks: 0 or -1
-    __attribute__((vector_size(PL_WIDTH * sizeof(pl_lane)), PL_REGISTER(PL_WIDTH * 4)));
+    __attribute__((vector_size(PL_WIDTH * sizeof(pl_lane)), PL_REGISTER(PL_REGISTER_SIZE)));
 typedef pl_near_quad quad;
 
 WIDE_INLINE vf splat(near_real v)
@@ -103,8 +121,9 @@ WIDE_INLINE vf vsqrt(vf v)
 
 // Whether some bit of N / 8 words is set, by halves: a loop over the lanes becomes an extraction of each.
 typedef int64_t words2 __attribute__((vector_size(16), PL_REGISTER(16)));
-typedef int64_t words4 __attribute__((vector_size(32), PL_REGISTER(PL_WIDTH == 4 ? 16 : 32)));
-typedef int64_t words8 __attribute__((vector_size(64), PL_REGISTER(PL_WIDTH * 4)));
+typedef int64_t words4
+    __attribute__((vector_size(32), PL_REGISTER(PL_REGISTER_SIZE == 16 ? 16 : 32)));
+typedef int64_t words8 __attribute__((vector_size(64), PL_REGISTER(PL_REGISTER_SIZE)));
 
 WIDE_INLINE bool any16(words2 w)
 {
@@ -126,14 +145,9 @@ typedef uint32_t numbers __attribute__((vector_size(PL_WIDTH * sizeof(uint32_t))
 
 WIDE_INLINE bool any(vm mask)
 {
-#if PL_NEAR_IS_DOUBLE && PL_WIDTH == 16
-    typedef int64_t words16 __attribute__((vector_size(128), PL_REGISTER(64)));
-    const words16 w = (words16)mask;
-    return any64(__builtin_shufflevector(w, w, 0, 1, 2, 3, 4, 5, 6, 7) |
-                 __builtin_shufflevector(w, w, 8, 9, 10, 11, 12, 13, 14, 15));
-#elif PL_NEAR_IS_DOUBLE && PL_WIDTH == 8 || !PL_NEAR_IS_DOUBLE && PL_WIDTH == 16
+#if PL_WIDE_SIZE == 64
     return any64((words8)mask);
-#elif PL_NEAR_IS_DOUBLE || PL_WIDTH == 8
+#elif PL_WIDE_SIZE == 32
     return any32((words4)mask);
 #else
     return any16((words2)mask);
@@ -272,7 +286,7 @@ WIDE_INLINE void gather4(vf out[4], const near_real *const *rows, int offset)
 }
 
 // Rows of eight: half as many loads, and a third stage that exchanges groups of four lanes, 40 instructions in place of 72.
-#if PL_WIDTH > 4 && !PL_NEAR_IS_DOUBLE
+#if PL_WIDTH > 4
 #define EIGHTS 1
 typedef near_real oct
     __attribute__((vector_size(8 * sizeof(near_real)), aligned(4 * sizeof(near_real)), may_alias));

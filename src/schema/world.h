@@ -52,7 +52,7 @@
     R(X, HERE, BOOL, no_fine_islands, NOT(fine_islands), "1", CHOICES(1), 0, NO_ZERO,               \
       "whether in a small world bodies that touch one another take finer substeps")                 \
     R(X, HERE, INT, simd_width, SAID(simd_width), "1", FROM(0, 16), 0, NO_ZERO,                     \
-      "lanes of the contact kernels: 4, 8, 16; 0: the best measured; every width gives the same bits") \
+      "floats of a vector register: 4, 8, 16; 0: the best measured; every width gives the same bits") \
     R(X, HERE, BOOL, measure, SAID(measure), "1", CHOICES(1), 0, NO_ZERO,                           \
       "the world measures its error: residuals, and energy by what changed it")                     \
     R(X, HERE, BOOL, watchdog, SAID(watchdog), "1", CHOICES(1), 0, NO_ZERO,                         \

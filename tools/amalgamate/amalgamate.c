@@ -442,8 +442,9 @@ static void emit_target_end(FILE *out)
 static void emit_width(FILE *out, char **paths, int count, int width)
 {
     names before = emitted;
-    fprintf(out, "\n//================ %d lanes ================\n#define PL_WIDTH %d\n", width,
-            width);
+    fprintf(out,
+            "\n//================ registers of %d floats ================\n#define PL_SIMD %d\n",
+            width, width);
     if (width > 4) {
         emit_target(out, width);
     }
@@ -464,7 +465,7 @@ static void emit_width(FILE *out, char **paths, int count, int width)
         emit_undefs(out, header);
     }
     emitted.count = before.count; // the next width has them again
-    fputs("#undef PL_WIDTH\n", out);
+    fputs("#undef PL_SIMD\n", out);
 }
 
 static FILE *open_output(const char *folder, const char *name)

@@ -379,7 +379,7 @@ static const cli_option options[] = {
     { "body", 0, CLI_TEXT, offsetof(replay_args, only), "NAME", 0, 0, NULL,
       "print only the body of that name" },
     { "width", 0, CLI_INT, offsetof(replay_args, width), "N", 0, 16, NULL,
-      "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "
+      "SIMD lanes of floats: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "
       "not a bit of the result" },
     { "render", 0, CLI_TEXT, offsetof(replay_args, film.output), "FILE", 0, 0, NULL,
       "draw instead: picture.png (of --seek or --step, else camera{at} of the scene, else the "

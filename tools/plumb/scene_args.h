@@ -48,7 +48,7 @@ typedef struct scene_args {
       "float (default), double, or far: positions in double, the solver in float" }
 #define SCENE_OPTION_WIDTH(type, member)                                                         \
     { "width", 0, CLI_INT, offsetof(type, member.width), "N", 0, 16, NULL,                       \
-      "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "          \
+      "SIMD lanes of floats: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "          \
       "not a bit of the result" }
 #define SCENE_OPTION_WORKERS(type, member)                                                       \
     { "workers", 0, CLI_INT, offsetof(type, member.workers), "N", 1, 64, NULL,                   \
