@@ -5,18 +5,19 @@
 # holds_but_open FOLDER LEAST [EVERY]: its scenes, of which there are at least so many, in float and double; of those in double one in
 # EVERY, where TRIALS is less than that.
 holds_but_open() {
-    local bin=${PLUMB_BIN:-${O:-build}/plumb} folder=$1 least=$2 precision open=$1/open.txt scenes
+    local bin=${PLUMB_BIN:-${O:-build}/plumb} folder=$1 least=$2 precision open=$1/open.txt scenes share
     local every=$((${TRIALS%%.*} + 0 < ${3:-1} ? ${3:-1} : 1))
     [ -f "$open" ] || open=/dev/null
     for precision in float double; do
-        mapfile -t scenes < <(ls "$folder"/*.lua | awk -v every=$([ $precision = float ] && echo 1 || echo $every) 'NR % every == 0')
+        [ $precision = float ] && share=1 || share=$every
+        mapfile -t scenes < <(ls "$folder"/*.lua | awk -v share=$share 'NR % share == 0')
         "$bin" check --quiet --precision $precision "${scenes[@]}" 2>/dev/null |
-            awk -v precision=$precision -v least=$([ $precision = float ] && echo "$least" || echo $((least / every))) \
+            awk -v precision=$precision -v share=$share -v least=$((least / share)) \
                 -v taken=" $(basename -a "${scenes[@]}" | tr '\n' ' ')" '
                 # "float,double | scene.lua | expectation | measured | cause"
                 FILENAME != "-" {
                     if (/^#/ || split($0, field, / *[|] */) < 3 || index(field[1], precision) == 0) next
-                    if (index(taken, " " field[2] " ") == 0) next
+                    if (share > 1 && index(taken, " " field[2] " ") == 0) next
                     listed[field[2] "|" field[3]] = 1
                     next
                 }
