@@ -5,6 +5,7 @@
 set -u
 
 . tests/harness/try.sh
+. tests/harness/trials.sh
 skip_sanitized "the files are the same with sanitizers"
 
 cc=${CC:-gcc}
@@ -17,9 +18,9 @@ silent()
     "$@" >"$work/words" 2>&1 && ! grep . "$work/words"
 }
 
-all=$(awk "BEGIN { print (${TRIALS:-1} >= 3) }")
 # At -O2 GCC sees more to warn of, and takes twice as long.
-level=$([ "$all" = 1 ] && echo -O2 || echo -O1)
+all=0 level=-O1
+trials_at_least 3 && all=1 level=-O2
 try "is written" make --no-print-directory amalgamation
 try "is C17" silent "$cc" -std=c17 $strict -fsyntax-only "$O/plumb.c"
 try "compiles in float for this machine, contraction allowed" \

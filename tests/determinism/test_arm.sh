@@ -4,6 +4,7 @@
 set -u
 
 . tests/harness/try.sh
+. tests/harness/trials.sh
 skip_sanitized "the library is built for another machine"
 
 cross=${CROSS_CC:-aarch64-linux-gnu-gcc}
@@ -19,8 +20,8 @@ done
 scenes=(stack billiards ragdolls rope_bridge jelly_stairs dam_break bonfire solar_system demolition platformer windmill clock tackle
     balloons cyclotron drops)
 
-defines=(float: double:-DPLUMB_DOUBLE=1 far:-DPLUMB_FAR=1)
-[ "$(awk "BEGIN { print (${TRIALS:-1} >= 3) }")" = 1 ] || defines=(float:)
+defines=(float:)
+trials_at_least 3 && defines+=(double:-DPLUMB_DOUBLE=1 far:-DPLUMB_FAR=1)
 
 built() # precision flag
 {

@@ -2,14 +2,16 @@
 # open.txt lists; and what is listed there still fails. So whoever mends one must take it off the list, and whoever breaks
 # one sees it.
 
+. tests/harness/trials.sh
+
 # holds_but_open FOLDER LEAST [EVERY]: its scenes, of which there are at least so many, in float and double; of those in double one in
 # EVERY, where TRIALS is less than that.
 holds_but_open() {
     local bin=${PLUMB_BIN:-${O:-build}/plumb} folder=$1 least=$2 precision open=$1/open.txt scenes share
-    local every=$((${TRIALS%%.*} + 0 < ${3:-1} ? ${3:-1} : 1))
     [ -f "$open" ] || open=/dev/null
     for precision in float double; do
-        [ $precision = float ] && share=1 || share=$every
+        share=1
+        [ $precision = float ] || trials_at_least "${3:-1}" || share=${3:-1}
         mapfile -t scenes < <(ls "$folder"/*.lua | awk -v share=$share 'NR % share == 0')
         "$bin" check --quiet --precision $precision "${scenes[@]}" 2>/dev/null |
             awk -v precision=$precision -v share=$share -v least=$((least / share)) \

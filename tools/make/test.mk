@@ -29,7 +29,7 @@ endif
 # what follows closed forms or stays calm there does so here, and is asked with TRIALS of 3 and more, or where it says PLUMB_FAR.
 FAR_SRC := $(DOUBLE_SRC)
 ifeq ($(ALL_OF_IT),0)
-FAR_SRC := $(filter $(patsubst %,tests/%,unit/% api/% determinism/%) $(if $(DOUBLE_SRC),$(shell grep -l PLUMB_FAR $(DOUBLE_SRC))),$(DOUBLE_SRC))
+FAR_SRC := $(filter $(patsubst %,tests/%,unit/% api/% determinism/%) $(shell grep -l PLUMB_FAR $(DOUBLE_SRC)),$(DOUBLE_SRC))
 endif
 
 TEST_PROGRAMS := $(TEST_SRC:%.c=$(O)/%) $(DOUBLE_SRC:tests/%.c=$(O)/tests-double/%) \
