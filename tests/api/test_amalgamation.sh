@@ -18,8 +18,8 @@ silent()
     "$@" >"$work/words" 2>&1 && ! grep . "$work/words"
 }
 
-# At -O2 GCC sees more to warn of, and takes twice as long.
-all=0 level=-O1
+# At -O2 GCC sees more to warn of, and takes twice as long. At -O1 alone GCC never fuses, whatever it is allowed to.
+all=0 level="-O1 -fexpensive-optimizations"
 trials_at_least 3 && all=1 level=-O2
 try "is written" make --no-print-directory amalgamation
 try "is C17" silent "$cc" -std=c17 $strict -fsyntax-only "$O/plumb.c"
