@@ -4,6 +4,7 @@
 set -u
 
 . tests/harness/try.sh
+. tests/harness/trials.sh
 skip_sanitized "a game is not made of sanitized libraries"
 
 top=$PWD
@@ -52,13 +53,14 @@ try "README.md shows the line" test -n "$lines"
 link=$(grep '^    target_link_libraries(game PRIVATE plumb::plumb)' README.md)
 try "README.md shows the target" test -n "$link"
 
+options=(-DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O0 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
 # game folder precision options...: builds without optimisation, as that costs least; runs and compares.
 game()
 {
     local precision=$1
     shift
     rm -rf "$work/build"
-    cmake -S "$work/game" -B "$work/build" -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O0 "$@" &&
+    cmake -S "$work/game" -B "$work/build" "${options[@]}" "$@" &&
         cmake --build "$work/build" && "$work/build/game" | diff - "$work/$precision.hash"
 }
 lists() # of CMakeLists.txt
@@ -74,8 +76,18 @@ needs_shared() # or not
 
 ln -s "$top" "$work/game/plumb"
 lists <<<"$lines"
-try "as a folder" game float
-try "is linked statically" bash -c "! ldd '$work/build/game' | grep libplumb"
+# A build takes half a minute, and one more is below: the commands are compared with its; TRIALS=3 runs them, too.
+try "as a folder" cmake -S "$work/game" -B "$work/folder" "${options[@]}"
+if trials_at_least 3; then
+    try "as a folder, built" game float
+    try "is linked statically" bash -c "! ldd '$work/build/game' | grep libplumb"
+fi
+# compiles folder, where the sources are, a word that counts for nothing: the commands that compile the library
+compiles()
+{
+    sed -n "s|.*\"command\": \"\(.*$2/src/.*\)\",\$|\1|p" "$1/compile_commands.json" |
+        sed "s| -I[^ ]*||g; s| -o [^ ]*||; s|$2||; s| -Dplumb_EXPORTS||; s| $3||" | sort
+}
 refused()
 {
     ! cmake -S "$work/game" -B "$work/other" -DCMAKE_C_COMPILER="$cc" -DPLUMB_PRECISION=half >"$work/words" 2>&1 &&
@@ -92,6 +104,10 @@ FetchContent_MakeAvailable(plumb)
 END
 try "by FetchContent, for far worlds, shared" game far -DPLUMB_PRECISION=far -DBUILD_SHARED_LIBS=ON
 try "is linked with the shared library" needs_shared
+compiles "$work/folder" "$work/game/plumb" -none >"$work/folder.txt"
+compiles "$work/build" "$work/build/_deps/plumb-src" -DPLUMB_FAR=1 >"$work/fetched.txt"
+try "has hundreds of sources" test "$(wc -l <"$work/folder.txt")" -gt 300
+try "as a folder the library is compiled likewise" diff "$work/folder.txt" "$work/fetched.txt"
 try "installs" cmake --install "$work/build/_deps/plumb-build" --prefix "$work/prefix"
 lists <<<"find_package(plumb 0.1 REQUIRED)"
 try "by find_package" game far -DCMAKE_PREFIX_PATH="$work/prefix"

@@ -161,7 +161,7 @@ try "a kind of shape is five files: two, and three of the scene language" touche
 built()
 {
     env -u MAKEFLAGS -u MAKELEVEL -u MFLAGS make -C "$tree" --no-print-directory JOBS=1 O=build CFLAGS=-O0 WERROR=1 \
-        build/libplumb.a build/float/libscene.a build/float/tools/plumb/engine_joints.o
+        EFFECTS="all -liquid -air -softbodies -characters -light -watchdog" build/libplumb.a build/float/libscene.a build/float/tools/plumb/engine_joints.o
 }
 try "library, loader and pictures of joints are built without a warning" built
 

@@ -15,7 +15,7 @@
 
 #define BODIES      40 // of an island
 #define STEPS       240
-#define STEPS_EXACT 150
+#define STEPS_EXACT 75 // they touch by then
 
 typedef struct island {
     plumb_real x;                // [m] where it is
