@@ -1,6 +1,5 @@
 // test_liquid_phases.c - liquids of several phases: layers at rest, what floats between them, waves between them, what
 // was stirred parts again, momentum, and that a phase like the first, or one far off, changes no bit.
-// PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

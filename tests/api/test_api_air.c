@@ -1,6 +1,5 @@
 // test_api_air.c - air as a user has it: refused calls, what is absent costs nothing, images and deltas, threads and widths,
 // recordings, out of memory.
-// PLUMB_LONG
 #include "harness/heap.h"
 #include "harness/recording.h"
 #include "world_fixture.h"

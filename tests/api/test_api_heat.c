@@ -1,6 +1,5 @@
 // test_api_heat.c - heat as a user has it: refused calls, settings and their defaults, what is asked, images and rollback while bodies melt
 // and burn, recordings, threads and widths, systems, out of memory.
-// PLUMB_LONG
 #include "harness/heap.h"
 #include "harness/recording.h"
 #include "world_fixture.h"

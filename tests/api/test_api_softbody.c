@@ -1,6 +1,5 @@
 // test_api_softbody.c - soft bodies as a user has them: refused calls, pins, destruction, sleep, images while cloth tears,
 // threads and widths, recordings, out of memory, what did not settle.
-// PLUMB_LONG
 #include "harness/heap.h"
 #include "harness/recording.h"
 #include "world_fixture.h"

@@ -441,12 +441,11 @@ static void step(plumb_world *world, void *context)
     }
 }
 
-// In double and the far build a third of the steps. `turns`: going back is into a world that was empty at first, with other settings.
-static void roll(plumb_solver solver, int steps, bool frames, bool turns)
+// `turns`: going back is into a world that was empty at first, with other settings.
+static void roll(plumb_solver solver, int all, bool frames, bool turns)
 {
     static uint64_t hashes[2 * STEPS + 1];
-    const int asked = (int)trials_count((uint32_t)steps);
-    steps = asked < steps ? asked : steps;
+    const int steps = trials_steps(all);
     script s = { 0 };
     plumb_world *straight = make_world(&s, solver), *rolled = make_world(&s, solver);
     plumb_world *other = turns ? make_empty(&s, NULL) : NULL;

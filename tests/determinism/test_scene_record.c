@@ -126,8 +126,7 @@ static void for_all(void (*check)(const char *path, const run *r), int keyframes
     assert_int_equal(glob("assets/scenes/*.lua", 0, NULL, &found), 0);
     assert_in_range(found.gl_pathc, 10, 1000);
     for (size_t i = 0; i < found.gl_pathc; ++i) {
-        if (!trials_takes((uint32_t)i + turn,
-                          sizeof(plumb_real) > sizeof(float) || PLUMB_IS_FAR ? 6 : 3)) {
+        if (!trials_takes((uint32_t)i + turn, 3)) {
             continue;
         }
         r = (run){ .steps = 0 };

@@ -41,11 +41,24 @@ static inline uint32_t trials_share(uint32_t usual, double share)
     return count < 1 ? 1 : (uint32_t)count;
 }
 
-/// How many, for tests that draw all cases from one stream of random numbers: in float, the default, all, in double and in the far
-/// build the first third of them, for what these add is their precision.
+/// What of a test's work a precision does where what it adds is its precision: all in float, the default, a third in double and in
+/// the far build.
+static inline double trials_part(void)
+{
+    return PLUMB_IS_FAR || sizeof(plumb_real) > sizeof(float) ? 1.0 / 3 : 1;
+}
+
+/// How many, for tests that draw all cases from one stream of random numbers: of that part the first.
 static inline uint32_t trials_count(uint32_t usual)
 {
-    return trials_share(usual, PLUMB_IS_FAR || sizeof(plumb_real) > sizeof(float) ? 1.0 / 3 : 1);
+    return trials_share(usual, trials_part());
+}
+
+/// How many steps of so many, for tests of one long case: that part, but with TRIALS of 3 and more all.
+static inline int trials_steps(int all)
+{
+    const double part = trials_part() * trials_asked("TRIALS", 1);
+    return part < 1 ? (int)(all * part) : all;
 }
 
 static inline trials trials_from(uint32_t first, uint32_t usual)
@@ -62,7 +75,7 @@ static inline trials trials_whole(uint32_t first, uint32_t usual)
 }
 
 /// Of a list of cases that take long one in `every`: others in float, in double and in the far build, so that with 3 each is
-/// taken by one of them. With TRIALS=`every` all are.
+/// taken by one of them. With TRIALS=`every` all are. A test that says PLUMB_LONG takes those of float alone until then.
 static inline bool trials_takes(uint32_t number, uint32_t every)
 {
     const uint32_t turn = PLUMB_IS_FAR ? 2 : sizeof(plumb_real) > sizeof(float) ? 1 : 0;

@@ -10,7 +10,7 @@ MATHS := -ffp-contract=off -fno-math-errno -fno-trapping-math
 # not to contract.
 BASELINE_X86_64 := -march=x86-64 -mno-fma
 
-# A file X.simd.c is compiled once for every number of lanes.
+# A file X.simd.c is compiled once for every size of vector register, in floats.
 WIDTHS := 4 8 16
 WIDTH_8_X86_64 := -mavx2
 WIDTH_16_X86_64 := -mavx512f -mavx512vl -mavx512dq -mavx512bw

@@ -11,7 +11,7 @@ static char *content(const char *path, size_t *size)
         return NULL;
     }
     const long length = ftell(file);
-    char *bytes = malloc(length > 0 ? (size_t)length : 1);
+    char *bytes = length > 0 ? malloc((size_t)length) : NULL;
     rewind(file);
     *size = bytes != NULL ? fread(bytes, 1, (size_t)length, file) : 0;
     fclose(file);
