@@ -7,6 +7,7 @@
 #include "exact/exact.h"
 
 #include <math.h>
+#include <string.h>
 
 #define EPSILON 1e-15 // of J v, in rounding
 
@@ -43,6 +44,13 @@ void pl_exact_push_all(const pl_exact_system *s, double share)
             pl_exact_push(s, r, s->velocity, share * r->impulse);
         }
     }
+}
+
+void pl_exact_follow(const pl_exact_system *s)
+{
+    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
+    memcpy(s->velocity + first, s->base + first, (end - first) * sizeof(double));
+    pl_exact_push_all(s, 1);
 }
 
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity)

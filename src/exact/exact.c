@@ -12,7 +12,9 @@
 #include <math.h>
 
 // Share of the push speed, from which on what undoes errors leaves nothing in the velocities.
-#define UNDONE 0.01
+#define UNDONE       0.01
+#define ASTRAY       0.1 // of the speeds that rows have to undo: a pull that leaves more cannot be obeyed
+#define ASTRAY_SHARE 0.05 // of what such a pull undoes
 
 static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
 {
@@ -32,13 +34,12 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .below = blocks + 9 * ((size_t)e->node_count + e->entry_count),
                               .velocity = vectors,
                               .base = vectors + n,
-                              .start = vectors + 2 * n,
-                              .change = vectors + 3 * n,
-                              .step = vectors + 4 * n,
-                              .kick = vectors + 5 * n,
-                              .full = vectors + 6 * n,
-                              .best = vectors + 7 * n,
-                              .brisk = vectors + 8 * n,
+                              .change = vectors + 2 * n,
+                              .step = vectors + 3 * n,
+                              .kick = vectors + 4 * n,
+                              .full = vectors + 5 * n,
+                              .best = vectors + 6 * n,
+                              .brisk = vectors + 7 * n,
                               .h = s->h,
                               .since = s->solving->call.since,
                               .inv_dt = (double)s->solving->call.inv_dt,
@@ -216,10 +217,18 @@ static bool is_brisk(const pl_exact_system *s)
     return sum > push && most_between(s, s->base, s->velocity) > push;
 }
 
+// What a pull could not obey, as of bodies in a box too small for them, has velocities that share the errors out; but undone all at
+// once they are others in each substep. Islands that nobody asked for have had too few rounds to tell.
+static bool is_astray(const pl_exact_system *s)
+{
+    return s->missed && s->left > ASTRAY && s->world->desc.solver == PLUMB_SOLVER_EXACT;
+}
+
 // Velocities without undoing anything, and of what undoing adds to them as much as moves no body by more than the push
 // speed: rows are bounds and lines, so what lies between two sets that obey them obeys them, too.
 static void slow_down(pl_exact_system *s)
 {
+    const double part = is_astray(s) ? ASTRAY_SHARE : 1;
     copy(s, s->brisk, s->velocity);
     copy(s, s->velocity, s->base);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
@@ -227,7 +236,7 @@ static void slow_down(pl_exact_system *s)
         r->brisk = r->next;
         r->target -= r->undone;
         r->impulse = r->next = r->in_force ? r->before / 2 : 0;
-        r->shift = r->gap = 0;
+        r->shift = 0;
     }
     s->recovery = 0;
     pl_exact_solve(s);
@@ -235,7 +244,7 @@ static void slow_down(pl_exact_system *s)
     s->missed = true; // nothing of it stays
     const double push = (double)s->world->desc.push_speed;
     const double most = most_between(s, s->velocity, s->brisk);
-    const double share = most > push ? push / most : 1;
+    const double share = pl_lesser(part, most > push ? push / most : 1);
     for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
         s->velocity[k] += share * (s->brisk[k] - s->velocity[k]);
     }
@@ -254,7 +263,7 @@ static void solve_island(pl_exact_system *s, bool warm)
     pl_exact_fill(s);
     begin(s, warm);
     pl_exact_solve(s);
-    if (s->sweep == PL_SWEEP_PULL && is_brisk(s)) {
+    if (s->sweep == PL_SWEEP_PULL && (is_astray(s) || is_brisk(s))) {
         slow_down(s);
     }
     s->island->missed = s->missed;

@@ -6,7 +6,7 @@
 #include "solver/substep.h"
 #include "world/state.h"
 
-#define PL_EXACT_VECTORS 9 // of a system
+#define PL_EXACT_VECTORS 8 // of a system
 
 // A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
 // `factor` times the load, the impulses of the `leads` rows that lie before it in the contact.
@@ -20,21 +20,31 @@ typedef struct pl_exact_row {
         high;      // [N s]; of friction and rolling resistance, low is the middle of what it may be
     double factor; // [-] or [m]
     double mass;   // [kg] effective
-    double impulse;    // [N s] as known
-    double next;       // [N s] what follows from the velocities of the moment
-    double best;       // [N s] the same in the best round so far
-    double brisk;      // [N s] of velocities that undo errors too fast
-    double weight;     // [kg] -d next / d (J v) of its own
-    double slope;      // the same of each lead's J v, as a share of the lead's weight
-    double kept;       // [N s] given to the velocities by the sweep that pulled, and stays
-    double before;     // [N s] as known before the sweep that pulls
-    double shift, gap; // [m/s] of friction as a cone: see newton.c
-    uint32_t lead;     // first of the rows that load it
-    uint8_t leads;     // how many; 0: low and high hold
-    bool cone;         // friction of a point: a cone with the load, where friction is cones
+    double impulse; // [N s] as known
+    double next;    // [N s] what follows from the velocities of the moment
+    double best;    // [N s] the same in the best round so far
+    double brisk;   // [N s] of velocities that undo errors too fast
+    double weight;  // [kg] -d next / d (J v) of its own
+    double slope;   // the same of each lead's J v, as a share of the lead's weight
+    double kept;    // [N s] given to the velocities by the sweep that pulled, and stays
+    double before;  // [N s] as known before the sweep that pulls
+    double shift;   // [m/s] of friction as a cone: see newton.c
+    uint32_t lead;  // first of the rows that load it
+    uint8_t leads;  // how many; 0: low and high hold
+    bool cone;      // friction of a point: a cone with the load, where friction is cones
     bool in_force;
     bool stays; // of a joint or a contact that turns: what it gave in the sweep that pulled
 } pl_exact_row;
+
+// A row as sweeps go over it, what driven ends do to it in its target.
+typedef struct pl_exact_swept_row {
+    double j[6], push[6]; // of A, of B; push: times the inverse masses
+    double target, give;
+    double gain; // [kg] impulse for a speed that lacks
+    double low, high, factor, impulse;
+    uint32_t at[2];       // in the velocities, of A and B
+    uint32_t lead, leads; // in the island
+} pl_exact_swept_row;
 
 // A contact that may turn within the step, and how: moment.c.
 typedef struct pl_exact_turning {
@@ -64,16 +74,16 @@ typedef struct pl_exact_system {
     // Of an entry: what the later node's velocity does to the earlier one, and the reverse.
     double *above, *below;
     double *diagonal;
-    // Three a node: velocities of the moment, without any impulse of the rows, where a round began; F; Newton's step; half of
-    // what forces do in the substep; the velocities that the sweep that relaxes begins with; those of the best round;
-    // those that undo errors too fast.
-    double *velocity, *base, *start, *change, *step, *kick, *full, *best, *brisk;
+    // Three a node: velocities of the moment, without any impulse of the rows; F; Newton's step; half of what forces do in the
+    // substep; the velocities that the sweep that relaxes begins with; those of the best round; those that undo errors too fast.
+    double *velocity, *base, *change, *step, *kick, *full, *best, *brisk;
     near_real h, since; // [s] the substep; from the start of the step to its own
     double inv_dt;      // [1/s] of the step
     bool first;         // substep of it
     pl_joint_sweep sweep;
     double recovery; // share of what errors ask for: 1
     bool missed;     // the tolerance
+    double left;     // [-] of the speeds that rows had to undo
 } pl_exact_system;
 
 // Of an item that is a contact.
@@ -123,17 +133,23 @@ void pl_exact_substitute(const pl_exact_system *s, double *x);
 typedef struct pl_exact_newton {
     pl_exact_system *s;
     double stiffness; // times the mass of a row
+    double due;       // the same, of what is as uneven
+    double ratio;     // [-] of the heaviest body to the lightest
     double scale;     // [m/s] the largest speed that a row has to undo
     double fastest;   // [m/s] that anything may slip
     double tolerance; // [-] of the scale
     double enough;    // of F, by momentum
     double noise;     // of the same, of rounding
     double slope;     // of the potential, where the step begins
-    double length;    // of the last step of the shifts, in steps by slip alone
-    int shifts;       // such steps so far, in a row
     int rounds;       // that missed
     double merit;     // [m/s] of the best of them, the less the better
     double left;      // [-] of the scale, likewise
+    double loads;     // [-] the same of the last round, but of rows without friction
+    double last;      // [-] what the round before left of the scale
+    bool unasked;     // a world of the soft step: time is short
+    bool even;        // no body is much heavier than another: sweeps come near
+    bool swept;       // friction rubs against friction: rows are, before each round
+    bool spoilt;      // by sweeps, the round before
     bool convex;      // see evaluate_cone
 } pl_exact_newton;
 
@@ -144,13 +160,15 @@ double pl_exact_sum(const pl_exact_system *s, const pl_exact_row *r);
 void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velocity,
                    double impulse);
 void pl_exact_push_all(const pl_exact_system *s, double share);
+// Velocities that follow from the impulses.
+void pl_exact_follow(const pl_exact_system *s);
 // F into `change`: returns its size, by momentum (evaluate.c).
 double pl_exact_evaluate(pl_exact_newton *n);
 
-// Whether velocities have more energy than the start and what drove the rows; velocities and impulses by sweeps from `base`
-// (sweep.c).
+// Whether velocities have more energy than the start and what drove the rows; velocities and impulses by sweeps from the impulses of
+// the moment (sweep.c).
 bool pl_exact_has_gained(const pl_exact_system *s);
-void pl_exact_sweep(const pl_exact_system *s);
+void pl_exact_sweep(const pl_exact_system *s, int count);
 
 // Velocities and impulses that obey all rows (newton.c).
 void pl_exact_solve(pl_exact_system *s);

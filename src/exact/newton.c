@@ -7,8 +7,10 @@
 // that v is on. Then l = L(v); what is left of the law is |L - l| / p, a speed, and falls by a factor a round that grows
 // with p. Rows that say the same twice do no harm: the matrix is 1 + M^-1 J^T W J.
 //
-// Where Newton's steps do not settle, points with friction are cones for a round, whose lift is taken from the slip with which the
-// round begins (De Saxce and Feng 1998): that problem is convex, and a step is shortened until its potential falls.
+// Where Newton's steps do not settle, points with friction are cones, whose lift is taken from the slip with which the round begins
+// (De Saxce and Feng 1998): that problem is convex, and a step is shortened until its potential falls. In a crowd the rows are swept
+// before each such round (sweep.c): sweeps follow the law itself, cones the slip of before, and what is left over from one is soon told
+// by the other.
 //
 // Reads: rows, nodes. Writes: velocities, impulses. Cost: some 2 to 20 factors a solution.
 #include "exact/exact.h"
@@ -17,25 +19,33 @@
 #include <math.h>
 #include <string.h>
 
-#define STIFFNESS   1e3 // of a row's own mass, in the first round
-#define MOST_RATIO  1e6
-#define GROWTH      1e4  // of the stiffness that is due, where rounds gain little
-#define SLOW        0.05 // gain of a round, below which stiffness grows
-#define PULL_GROWTH 1e1  // where errors are undone
-#define ROUNDS      30
-#define NEWTONS     20    // steps of a round
-#define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
-#define FAR_OFF     1.0   // of the same speeds: a solution that is none
-#define FACTORS     600   // of a solution, after which it is said to have missed
-#define OFF         1e-2 // likewise: of islands that nobody asked for, not solved, more or less (hard.c)
-#define HOPELESS    60 // the same where a sweep of the step has missed
-#define UNASKED     8  // the same in a world of the soft step: a frame is not to be missed for it
-#define MOST_CHANGE 4  // of the speeds that rows have to undo
-#define LONGEST     20 // step of the shifts, in steps by slip alone
-#define STALLS      6  // rounds without progress
-#define PULL_STALLS 2
-#define SHORTENINGS 6
-#define BISECTIONS  40
+#define STIFFNESS    1e3 // of a row's own mass, in the first round
+#define MOST_RATIO   1e6
+#define GROWTH       1e4  // of the stiffness that is due, where rounds gain little
+#define SLOW         0.05 // gain of a round, below which stiffness grows
+#define CONES_SLOW   0.3  // the same with cones; and share of what is left
+#define PULL_GROWTH  1e1  // where errors are undone
+#define ROUNDS       30
+#define NEWTONS      20    // steps of a round
+#define ROUNDING     1e-12 // of the speeds that a row adds up: what is less is nothing
+#define FAR_OFF      1.0   // of the same speeds: a solution that is none
+#define FACTORS      600   // of a solution, after which it is said to have missed
+#define OFF          1e-2 // likewise: of islands that nobody asked for, not solved, more or less (hard.c)
+#define HOPELESS     60 // the same where a sweep of the step has missed
+#define UNASKED      8  // the same in a world of the soft step: a frame is not to be missed for it
+#define MOST_CHANGE  4  // of the speeds that rows have to undo
+#define STALLS       6  // rounds without progress
+#define PULL_STALLS  2
+#define SHORTENINGS  6
+#define BISECTIONS   40
+#define SOFTER       0.1  // of the stiffness that is due: of cones, which sweeps brought near
+#define NEAR         1e-3 // of the speeds to undo: slopes of friction are those of the solution
+#define ROUGH        0.1  // of the same speeds: a round with cones that leaves more is of a crowd
+#define SPOILT       1.4  // times what the round before left
+#define FIRST_SWEEPS 200  // of the rows, before the first round of a crowd
+#define SWEEPS       100  // before each of the others
+#define RESCUES      30   // in place of a solution
+#define UNEVEN       1e3  // ratio of masses beyond which sweeps come to nothing
 // To move, where errors are undone: a speed that bodies take on counts as so much of one that is left.
 #define RELUCTANCE 0.01
 
@@ -133,28 +143,15 @@ static bool settle(pl_exact_newton *n, int most)
     return size <= n->enough + n->noise;
 }
 
-// The slip of the moment as what cones take from their normals. One such step after another converges by a factor, slowly
-// where much slides: from the second on it is lengthened by what the last two say of that factor (Irons and Tuck 1969).
-static void shift_cones(pl_exact_newton *n)
+// The slip of the moment as what cones take from their normals.
+static void shift_cones(const pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
-    double along = 0, square = 0;
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         pl_exact_row *r = &s->rows[k];
         if (r->in_force && r->cone) {
             const double slip = fabs(pl_exact_rate(s, r, s->velocity) - r->target);
-            const double gap = r->factor * slip - r->shift, turn = gap - r->gap;
-            along += r->gap * turn, square += turn * turn;
-            r->gap = gap;
-        }
-    }
-    const double length = n->shifts > 0 && square > 0 ? -n->length * along / square : 1;
-    n->length = n->shifts++ == 0 ? 1 : pl_lesser(pl_greater(length, 0.5), LONGEST);
-    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
-        pl_exact_row *r = &s->rows[k];
-        if (r->in_force && r->cone) {
-            r->shift =
-                pl_lesser(pl_greater(r->shift + n->length * r->gap, 0), r->factor * n->fastest);
+            r->shift = r->factor * pl_lesser(slip, n->fastest);
         }
     }
 }
@@ -162,26 +159,41 @@ static void shift_cones(pl_exact_newton *n)
 static void clear_shifts(const pl_exact_newton *n)
 {
     for (uint32_t k = n->s->island->first_row; k < n->s->island->end_row; ++k) {
-        n->s->rows[k].shift = n->s->rows[k].gap = 0;
+        n->s->rows[k].shift = 0;
     }
 }
 
-// A round: Newton's steps at the loads of the moment; from the start with cones, where they do not settle.
+// A crowd from here on: rows are swept before each round, and may be softer, which leaves Newton's steps fewer kinks on their way.
+static void begin_sweeps(pl_exact_newton *n)
+{
+    n->swept = true;
+    n->stiffness = pl_lesser(n->stiffness, SOFTER * STIFFNESS);
+    n->due *= SOFTER;
+    pl_exact_sweep(n->s, FIRST_SWEEPS);
+}
+
+// A round: Newton's steps at the loads of the moment; or with cones, once those have not settled. Near the solution they do, and
+// need no slip of before. Sweeps are left out behind a round that they spoilt. False: nothing has settled.
 static bool round_off(pl_exact_newton *n)
 {
-    const pl_exact_system *s = n->s;
-    const uint32_t first = 3 * s->island->first_node, end = 3 * s->island->end_node;
-    memcpy(s->start + first, s->velocity + first, (end - first) * sizeof(double));
-    n->convex = false;
-    if (!settle(n, NEWTONS)) {
-        memcpy(s->velocity + first, s->start + first, (end - first) * sizeof(double));
-        n->convex = true;
-        shift_cones(n);
-        return settle(n, 2 * NEWTONS);
+    const bool rough = n->convex && n->last > ROUGH && n->even && !n->unasked;
+    if (!n->convex || n->last < NEAR) {
+        n->convex = false;
+        if (settle(n, NEWTONS)) {
+            clear_shifts(n);
+            return true;
+        }
     }
-    n->shifts = 0;
-    clear_shifts(n);
-    return true;
+    n->convex = true;
+    if (!n->swept && rough) {
+        begin_sweeps(n);
+    } else if (n->swept && !n->spoilt) {
+        pl_exact_sweep(n->s, SWEEPS);
+    } else {
+        pl_exact_follow(n->s);
+    }
+    shift_cones(n);
+    return settle(n, 2 * NEWTONS);
 }
 
 // [m/s] by which impulses have not come to rest.
@@ -246,6 +258,7 @@ static void find_scale(pl_exact_newton *n)
                               n->scale > 0 ? ROUNDING * sum / n->scale : 0);
 }
 
+// [kg]; its ratio to the lightest.
 static double heaviest(const pl_exact_system *s, double *ratio)
 {
     double most = 0, least = INFINITY;
@@ -324,64 +337,106 @@ static void give_in(pl_exact_newton *n)
     }
 }
 
+// What has gained energy is no solution: sweeps from no impulses at all.
+static void rescue(const pl_exact_system *s)
+{
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        s->rows[k].impulse = 0;
+    }
+    pl_exact_sweep(s, RESCUES);
+}
+
+//---- rounds --------------------------------------------------------------------------------------------
+
+static uint32_t factors_of(const pl_exact_newton *n)
+{
+    return n->unasked ? UNASKED : n->s->island->hopeless ? HOPELESS : FACTORS;
+}
+
+// Where rounds gain little rows are stiffer in the next one; with cones, whose slip is still to be found, where loads gain little, and are not
+// what is left by far the least.
+static void stiffen(pl_exact_newton *n, double loads, double left)
+{
+    const bool pulls = n->s->sweep == PL_SWEEP_PULL;
+    const double most = STIFFNESS * n->ratio * (pulls ? PULL_GROWTH : GROWTH);
+    const bool slow = n->convex ? loads > CONES_SLOW * n->loads && loads > CONES_SLOW * left
+                                : loads > SLOW * n->loads;
+    if (n->stiffness < n->due || (slow && n->stiffness < most)) {
+        n->stiffness *= 10;
+    }
+}
+
+// Rounds until one leaves no more than the tolerance; returns what the last one left.
+static double run_rounds(pl_exact_newton *n)
+{
+    const pl_exact_system *s = n->s;
+    const bool pulls = s->sweep == PL_SWEEP_PULL;
+    const int most_stalls = pulls ? PULL_STALLS : STALLS;
+    const uint32_t most_factored = s->exact->factored + factors_of(n);
+    double left = 0, best = INFINITY;
+    for (int round = 0, stalled = 0;
+         stalled < most_stalls && round < ROUNDS && s->exact->factored < most_factored; ++round) {
+        if (pulls) {
+            pl_exact_bend(s, round);
+        }
+        const bool settled = round_off(n);
+        left = unrest(n, false) / n->scale;
+        const double loads = unrest(n, true) / n->scale;
+        for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+            s->rows[k].impulse = s->rows[k].next;
+        }
+        if (left <= n->tolerance) {
+            break;
+        }
+        keep_best(n, left, loads);
+        stalled = left < 0.7 * best || n->stiffness < n->due ? 0 : stalled + 1;
+        n->spoilt = left > SPOILT * n->last && !n->spoilt;
+        n->last = left;
+        best = pl_lesser(left, best);
+        if (settled && loads > n->tolerance) {
+            stiffen(n, loads, left);
+        }
+        n->loads = loads;
+    }
+    return left;
+}
+
 void pl_exact_solve(pl_exact_system *s)
 {
     const bool pulls = s->sweep == PL_SWEEP_PULL;
-    double ratio;
-    pl_exact_newton n = { .s = s };
+    pl_exact_newton n = { .s = s,
+                          .stiffness = STIFFNESS,
+                          .loads = INFINITY,
+                          .last = INFINITY,
+                          .unasked = s->world->solver.hard_cluster != PL_NONE };
     if (pulls) {
         pl_exact_bend(s, 0); // what the arcs of the start ask for is to be undone, too
     }
     find_scale(&n);
     pl_exact_push_all(s, 1); // where the solution begins
-    const double tolerance = n.tolerance;
-    n.enough = 1e-4 * tolerance * tolerance * n.scale * n.scale * heaviest(s, &ratio);
-    n.stiffness = STIFFNESS;
-    // Heavy on light has to be stiffer by as much.
-    const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
-    const int most_stalls = pulls ? PULL_STALLS : STALLS;
-    const bool unasked = s->world->solver.hard_cluster != PL_NONE;
-    const uint32_t spend = unasked ? UNASKED : s->island->hopeless ? HOPELESS : FACTORS;
-    const uint32_t most_factored = s->exact->factored + spend;
-    double left = 0, before = INFINITY, best = INFINITY;
+    const double enough = n.tolerance * n.scale;
+    n.enough = 1e-4 * enough * enough * heaviest(s, &n.ratio);
+    n.even = n.ratio <= UNEVEN;
+    n.due = STIFFNESS * n.ratio; // heavy on light has to be stiffer by as much
+    double left = 0;
     for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].next = 0;
     }
-    for (int round = 0, stalled = 0; n.scale > 0 && stalled < most_stalls && round < ROUNDS &&
-                                     s->exact->factored < most_factored;
-         ++round) {
-        if (pulls) {
-            pl_exact_bend(s, round);
-        }
-        const bool settled = round_off(&n);
-        left = unrest(&n, false) / n.scale;
-        const double loads = unrest(&n, true) / n.scale;
-        for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
-            s->rows[k].impulse = s->rows[k].next;
-        }
-        if (left <= tolerance) {
-            break;
-        }
-        keep_best(&n, left, loads);
-        stalled = left < 0.7 * best || n.stiffness < due ? 0 : stalled + 1;
-        best = left < best ? left : best;
-        if (settled && loads > tolerance &&
-            (n.stiffness < due || (loads > SLOW * before && n.stiffness < most_stiff))) {
-            n.stiffness *= 10;
-        }
-        before = loads;
+    if (n.scale > 0) {
+        left = run_rounds(&n);
     }
-    s->missed = left > tolerance;
+    s->missed = left > n.tolerance;
     if (s->missed) {
         take_best(&n);
         left = n.left;
     }
+    s->left = left;
     s->island->solved |= left <= OFF;
-    if (left > FAR_OFF && !unasked) {
+    if (left > FAR_OFF && !n.unasked) {
         give_in(&n);
     }
     if (s->missed && pl_exact_has_gained(s)) {
-        pl_exact_sweep(s);
+        rescue(s);
     }
     if (!pulls) { // what cannot be undone is no miss
         s->exact->missed += s->missed;

@@ -28,8 +28,8 @@ typedef struct search {
 
 void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 {
-    pl_buffer *all[] = { &e->nodes,  &e->items,   &e->islands,  &e->rows,
-                         &e->blocks, &e->vectors, &e->turnings, &e->scratch };
+    pl_buffer *all[] = { &e->nodes,   &e->items,    &e->islands, &e->rows, &e->blocks,
+                         &e->vectors, &e->turnings, &e->scratch, &e->swept };
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         pl_buffer_free(memory, all[i]);
     }
@@ -328,5 +328,7 @@ bool pl_exact_plan(plumb_world *world)
     weigh(&s);
     const size_t blocks = (size_t)e->node_count + 2 * (size_t)e->entry_count;
     return pl_buffer_reserve(&world->memory, &e->rows, e->row_count * sizeof(pl_exact_row)) &&
+           pl_buffer_reserve(&world->memory, &e->swept,
+                             e->row_count * sizeof(pl_exact_swept_row)) &&
            pl_buffer_reserve(&world->memory, &e->blocks, 9 * blocks * sizeof(double));
 }

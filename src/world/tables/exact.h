@@ -36,6 +36,7 @@ typedef struct pl_exact_solver {
     pl_buffer items;   // pl_exact_item
     pl_buffer islands; // pl_exact_island
     pl_buffer rows;    // pl_exact_row
+    pl_buffer swept;   // pl_exact_swept_row: of an island
     pl_buffer blocks;  // double: nine a node, then twice nine an entry, above and below the diagonal
     pl_buffer vectors; // double, of nodes
     pl_buffer turnings; // pl_exact_turning: of contacts that may turn within the step
