@@ -520,11 +520,28 @@ static soak_row row_of(const soak *s)
                        .asleep = stats.asleep_count,
                        .contacts = stats.contact_count,
                        .joints = (uint32_t)plumb_world_joints(s->world, NULL, 0),
-                       .bytes = stats.bytes,
-                       .peak_bytes = stats.peak_bytes,
                        .image_bytes = plumb_world_snapshot_size(s->world),
                        .resident_bytes = resident_bytes(),
                        .hash = plumb_world_hash(s->world) };
+}
+
+// [B] the most that a world held. It comes and goes, with the liquid above all.
+typedef struct held {
+    size_t early; // in the first tenth of the steps, of SETTLED at least
+    size_t late;  // in the last tenth
+    size_t since; // since the last row told
+} held;
+
+static void look(held *h, const soak_plan *plan, uint64_t step, size_t bytes)
+{
+    const uint64_t tenth = plan->steps / 10;
+    if (step <= tenth || step <= SETTLED) {
+        h->early = bytes > h->early ? bytes : h->early;
+    }
+    if (step > plan->steps - tenth) {
+        h->late = bytes > h->late ? bytes : h->late;
+    }
+    h->since = bytes > h->since ? bytes : h->since;
 }
 
 // Both worlds go on by a step; the first one has been ahead since step `kept`.
@@ -551,8 +568,7 @@ bool soak_run(const soak_plan *plan, soak_report *report)
     soak back, straight;
     past p = { 0 };
     uint64_t hashes[SOAK_AHEAD], power = 10;
-    const uint64_t tenth = plan->steps / 10 < SETTLED ? SETTLED : plan->steps / 10;
-    size_t early = 0;
+    held memory = { 0 };
     *report = (soak_report){ .fault = NULL };
     if (!begin(&back, plan->seed, 4) || !begin(&straight, plan->seed, 8)) {
         report->fault = "no world could be made";
@@ -566,17 +582,18 @@ bool soak_run(const soak_plan *plan, soak_report *report)
             report->fault = both(&back, &straight, hashes, i % SOAK_BACK);
         }
         report->fault_step = i + 1;
-        early = i + 1 == tenth ? plumb_world_stats(straight.world).bytes : early;
+        look(&memory, plan, i + 1, plumb_world_stats(straight.world).bytes);
         if (i + 1 == power || i + 1 == plan->steps) {
             report->last = row_of(&straight);
+            report->last.bytes = memory.since;
+            memory.since = 0;
             if (plan->tell != NULL) {
                 plan->tell(&report->last);
             }
             power *= i + 1 == power ? 10 : 1;
         }
     }
-    if (report->fault == NULL && early > 0 &&
-        (double)report->last.bytes > SOAK_GROWTH * (double)early) {
+    if (report->fault == NULL && (double)memory.late > SOAK_GROWTH * (double)memory.early) {
         report->fault = "memory has grown";
     }
     report->made = straight.made;

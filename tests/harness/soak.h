@@ -24,9 +24,9 @@ enum { SOAK_BODIES = 40, SOAK_BACK = 64, SOAK_AHEAD = 12 };
 typedef struct soak_row {
     uint64_t step;
     uint32_t bodies, asleep, contacts, joints;
-    size_t bytes, peak_bytes; ///< [B] of the straight world
-    size_t image_bytes;       ///< [B] of its snapshot
-    size_t resident_bytes;    ///< [B] of the process, by Linux; 0: not told
+    size_t bytes;          ///< [B] the most that the straight world held since the row before
+    size_t image_bytes;    ///< [B] of its snapshot
+    size_t resident_bytes; ///< [B] of the process, by Linux; 0: not told
     uint64_t hash;
 } soak_row;
 
@@ -44,8 +44,8 @@ typedef struct soak_plan {
     void (*tell)(const soak_row *row);
 } soak_plan;
 
-/// True: nothing went wrong. Memory has grown when the world holds more at the end than SOAK_GROWTH times what it held
-/// after a tenth of the steps, of at least 10,000.
+/// True: nothing went wrong. Memory has grown when the most that a world holds in the last tenth of the steps is more than
+/// SOAK_GROWTH times the most of the first tenth, or of the first 10,000 steps.
 bool soak_run(const soak_plan *plan, soak_report *report);
 #define SOAK_GROWTH 1.5
 
