@@ -58,7 +58,30 @@ static void tell(void *context, plumb_log_level level, const char *message)
     }
 }
 
-// False for a name that is no solver.
+// What can be switched in a world of the soft step, as members of its description.
+static bool *switch_of(plumb_world_desc *desc, const char *name)
+{
+    const struct {
+        const char *name;
+        bool *member;
+    } switches[] = {
+        { "direct_joints", &desc->direct_joints },
+        { "no_exact_islands", &desc->no_exact_islands },
+        { "no_fine_islands", &desc->no_fine_islands },
+        { "no_continuous", &desc->no_continuous },
+        { "contact_impulses", &desc->contact_impulses },
+        { "watchdog", &desc->watchdog },
+        { "measure", &desc->measure },
+    };
+    for (size_t i = 0; i < sizeof switches / sizeof switches[0]; ++i) {
+        if (strcmp(switches[i].name, name) == 0) {
+            return switches[i].member;
+        }
+    }
+    return NULL;
+}
+
+// False for a name that is neither a solver nor a switch.
 static bool choose_solver(const struct engine_options *options, plumb_world_desc *desc)
 {
     if (options->solver == NULL || strcmp(options->solver, "soft") == 0) {
@@ -70,7 +93,11 @@ static bool choose_solver(const struct engine_options *options, plumb_world_desc
         desc->iterations = options->velocity_iterations;
         return true;
     }
-    return false;
+    bool *member = switch_of(desc, options->solver);
+    if (member != NULL) {
+        *member = true;
+    }
+    return member != NULL;
 }
 
 static struct engine_world *create(const struct engine_options *options)
@@ -84,7 +111,7 @@ static struct engine_world *create(const struct engine_options *options)
     desc.gravity = vec(options->gravity_x, options->gravity_y);
     desc.zero_gravity = !(fabs(options->gravity_x) + fabs(options->gravity_y) > 0.0);
     desc.substeps = options->substeps;
-    desc.no_continuous = !options->continuous;
+    desc.no_continuous |= !options->continuous;
     desc.simd_width = options->width;
     desc.workers = options->workers;
     desc.no_sleep = !options->sleep;
