@@ -147,6 +147,7 @@ typedef struct pl_exact_newton {
     double loads;     // [-] the same of the last round, but of rows without friction
     double last;      // [-] what the round before left of the scale
     bool unasked;     // a world of the soft step: time is short
+    bool cones;       // some point has friction
     bool even;        // no body is much heavier than another: sweeps come near
     bool swept;       // friction rubs against friction: rows are, before each round
     bool spoilt;      // by sweeps, the round before

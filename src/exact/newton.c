@@ -173,11 +173,12 @@ static void begin_sweeps(pl_exact_newton *n)
 }
 
 // A round: Newton's steps at the loads of the moment; or with cones, once those have not settled. Near the solution they do, and
-// need no slip of before. Sweeps are left out behind a round that they spoilt. False: nothing has settled.
+// need no slip of before; where no point has friction, as among stiff springs, they alone come to one. Sweeps are left out behind a
+// round that they spoilt. False: nothing has settled.
 static bool round_off(pl_exact_newton *n)
 {
-    const bool rough = n->convex && n->last > ROUGH && n->even && !n->unasked;
-    if (!n->convex || n->last < NEAR) {
+    const bool rough = n->convex && n->last > ROUGH && n->even && n->cones && !n->unasked;
+    if (!n->convex || n->last < NEAR || !n->cones) {
         n->convex = false;
         if (settle(n, NEWTONS)) {
             clear_shifts(n);
@@ -243,6 +244,7 @@ static void find_scale(pl_exact_newton *n)
         if (!r->in_force) {
             continue;
         }
+        n->cones |= r->cone;
         const double lack = (r->target - pl_exact_rate(s, r, s->base)) / (1 + r->give * r->mass);
         sum = pl_greater(sum, pl_exact_sum(s, r));
         if (r->leads > 0) {
