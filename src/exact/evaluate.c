@@ -7,7 +7,6 @@
 #include "exact/exact.h"
 
 #include <math.h>
-#include <string.h>
 
 #define EPSILON 1e-15 // of J v, in rounding
 
@@ -48,9 +47,15 @@ void pl_exact_push_all(const pl_exact_system *s, double share)
 
 void pl_exact_follow(const pl_exact_system *s)
 {
-    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
-    memcpy(s->velocity + first, s->base + first, (end - first) * sizeof(double));
+    pl_exact_copy(s, s->velocity, s->base);
     pl_exact_push_all(s, 1);
+}
+
+double pl_exact_driven(const pl_exact_system *s, const pl_exact_row *r, int end)
+{
+    const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[r->item->slot[end]];
+    const double *j = r->j + 3 * end;
+    return j[0] * (double)b->vx + j[1] * (double)b->vy + j[2] * (double)b->w;
 }
 
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity)
@@ -62,9 +67,7 @@ double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const doub
             const double *v = velocity + 3 * (size_t)node, *j = r->j + 3 * end;
             sum += j[0] * v[0] + j[1] * v[1] + j[2] * v[2];
         } else {
-            const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[r->item->slot[end]];
-            const double *j = r->j + 3 * end;
-            sum += j[0] * (double)b->vx + j[1] * (double)b->vy + j[2] * (double)b->w;
+            sum += pl_exact_driven(s, r, end);
         }
     }
     return sum;

@@ -156,13 +156,6 @@ static void give_velocities(const pl_exact_system *s)
     }
 }
 
-static void copy(const pl_exact_system *s, double *to, const double *from)
-{
-    for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
-        to[k] = from[k];
-    }
-}
-
 // Half of the kick comes before the drift, half behind it, and so do impulses (RATTLE, Andersen 1983): what is pushed moves
 // to second order in the substep. Where impulses are sought from.
 static void begin(const pl_exact_system *s, bool warm)
@@ -172,16 +165,16 @@ static void begin(const pl_exact_system *s, bool warm)
         if (warm) {
             pl_exact_push_all(s, -1); // they came with the impulses of the substep before
         }
-        copy(s, s->full, s->velocity);
+        pl_exact_copy(s, s->full, s->velocity);
         for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
             s->velocity[k] -= s->kick[k];
         }
     }
     pl_exact_spring(s, s->velocity);
     if (!pulls) {
-        copy(s, s->velocity, s->full);
+        pl_exact_copy(s, s->velocity, s->full);
     }
-    copy(s, s->base, s->velocity);
+    pl_exact_copy(s, s->base, s->velocity);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         pl_exact_row *r = &s->rows[k];
         if (pulls) {
@@ -221,16 +214,15 @@ static bool is_brisk(const pl_exact_system *s)
 // once they are others in each substep. Islands that nobody asked for have had too few rounds to tell.
 static bool is_astray(const pl_exact_system *s)
 {
-    return s->missed && s->left > ASTRAY && s->world->desc.solver == PLUMB_SOLVER_EXACT;
+    return s->missed && s->left > ASTRAY && !pl_exact_is_unasked(s->world);
 }
 
 // Velocities without undoing anything, and of what undoing adds to them as much as moves no body by more than the push
-// speed: rows are bounds and lines, so what lies between two sets that obey them obeys them, too.
-static void slow_down(pl_exact_system *s)
+// speed, and no more than `part`: rows are bounds and lines, so what lies between two sets that obey them obeys them, too.
+static void slow_down(pl_exact_system *s, double part)
 {
-    const double part = is_astray(s) ? ASTRAY_SHARE : 1;
-    copy(s, s->brisk, s->velocity);
-    copy(s, s->velocity, s->base);
+    pl_exact_copy(s, s->brisk, s->velocity);
+    pl_exact_copy(s, s->velocity, s->base);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         pl_exact_row *r = &s->rows[k];
         r->brisk = r->next;
@@ -263,8 +255,12 @@ static void solve_island(pl_exact_system *s, bool warm)
     pl_exact_fill(s);
     begin(s, warm);
     pl_exact_solve(s);
-    if (s->sweep == PL_SWEEP_PULL && (is_astray(s) || is_brisk(s))) {
-        slow_down(s);
+    if (s->sweep == PL_SWEEP_PULL) {
+        if (is_astray(s)) {
+            slow_down(s, ASTRAY_SHARE);
+        } else if (is_brisk(s)) {
+            slow_down(s, 1);
+        }
     }
     s->island->missed = s->missed;
     pl_exact_keep(s);

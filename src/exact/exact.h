@@ -6,6 +6,8 @@
 #include "solver/substep.h"
 #include "world/state.h"
 
+#include <string.h>
+
 #define PL_EXACT_VECTORS 8 // of a system
 
 // A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
@@ -97,10 +99,15 @@ static inline pl_classic_contact *pl_exact_contact(const pl_exact_system *s,
 void pl_hard_look(plumb_world *world);
 // Behind the substeps: which contacts were solved so.
 void pl_hard_note(plumb_world *world);
+// A world of the soft step, whose hard islands are solved so though nobody asked.
+static inline bool pl_exact_is_unasked(const plumb_world *world)
+{
+    return world->solver.hard_cluster != PL_NONE;
+}
 // Whether something is solved exactly in this step.
 static inline bool pl_exact_wanted(const plumb_world *world)
 {
-    return world->desc.solver == PLUMB_SOLVER_EXACT || world->solver.hard_cluster != PL_NONE;
+    return world->desc.solver == PLUMB_SOLVER_EXACT || pl_exact_is_unasked(world);
 }
 // Who is eliminated when (plan.c). False when out of memory.
 bool pl_exact_plan(plumb_world *world);
@@ -125,6 +132,13 @@ bool pl_exact_is_pressed(const pl_exact_system *s, const pl_exact_item *item);
 // What springs ask for in the sweep, their ends moving at such velocities, forces of the sweep included (spring.c).
 void pl_exact_spring(const pl_exact_system *s, const double *velocity);
 
+// Vectors of the island.
+static inline void pl_exact_copy(const pl_exact_system *s, double *to, const double *from)
+{
+    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
+    memcpy(to + first, from + first, (end - first) * sizeof(double));
+}
+
 // The factor of what `rows` weigh; its inverse times x, into x (factor.c).
 void pl_exact_factor(const pl_exact_system *s);
 void pl_exact_substitute(const pl_exact_system *s, double *x);
@@ -148,14 +162,14 @@ typedef struct pl_exact_newton {
     double last;      // [-] what the round before left of the scale
     bool unasked;     // a world of the soft step: time is short
     bool cones;       // some point has friction
-    bool even;        // no body is much heavier than another: sweeps come near
     bool swept;       // friction rubs against friction: rows are, before each round
     bool spoilt;      // by sweeps, the round before
     bool convex;      // see evaluate_cone
 } pl_exact_newton;
 
-// Of a row: J v at such velocities; what it adds up at those of the moment, of which its rounding is a share;
+// Of a row: what an end that is driven, or at rest, has of J v; J v at such velocities; what it adds up at those of the moment, of which its rounding is a share;
 // velocity += M^-1 J^T impulse; a share of the impulses of all rows to the velocities of the moment (evaluate.c).
+double pl_exact_driven(const pl_exact_system *s, const pl_exact_row *r, int end);
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity);
 double pl_exact_sum(const pl_exact_system *s, const pl_exact_row *r);
 void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velocity,

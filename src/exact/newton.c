@@ -17,7 +17,6 @@
 #include "math/compare.h"
 
 #include <math.h>
-#include <string.h>
 
 #define STIFFNESS    1e3 // of a row's own mass, in the first round
 #define MOST_RATIO   1e6
@@ -177,7 +176,8 @@ static void begin_sweeps(pl_exact_newton *n)
 // round that they spoilt. False: nothing has settled.
 static bool round_off(pl_exact_newton *n)
 {
-    const bool rough = n->convex && n->last > ROUGH && n->even && n->cones && !n->unasked;
+    const bool rough =
+        n->convex && n->last > ROUGH && n->cones && n->ratio <= UNEVEN && !n->unasked;
     if (!n->convex || n->last < NEAR || !n->cones) {
         n->convex = false;
         if (settle(n, NEWTONS)) {
@@ -296,8 +296,7 @@ static void keep_best(pl_exact_newton *n, double left, double loads)
     if (n->rounds++ > 0 && merit >= n->merit) {
         return;
     }
-    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
-    memcpy(s->best + first, s->velocity + first, (end - first) * sizeof(double));
+    pl_exact_copy(s, s->best, s->velocity);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         s->rows[k].best = s->rows[k].next;
     }
@@ -307,8 +306,7 @@ static void keep_best(pl_exact_newton *n, double left, double loads)
 static void take_best(const pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
-    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
-    memcpy(s->velocity + first, s->best + first, (end - first) * sizeof(double));
+    pl_exact_copy(s, s->velocity, s->best);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].next = s->rows[k].best;
     }
@@ -324,7 +322,7 @@ static void give_in(pl_exact_newton *n)
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].before;
     }
-    memcpy(s->velocity + first, s->base + first, (end - first) * sizeof(double));
+    pl_exact_copy(s, s->velocity, s->base);
     clear_shifts(n);
     n->convex = true;
     n->stiffness = STIFFNESS;
@@ -355,8 +353,8 @@ static uint32_t factors_of(const pl_exact_newton *n)
     return n->unasked ? UNASKED : n->s->island->hopeless ? HOPELESS : FACTORS;
 }
 
-// Where rounds gain little rows are stiffer in the next one; with cones, whose slip is still to be found, where loads gain little, and are not
-// what is left by far the least.
+// Where rounds gain little rows are stiffer in the next one; with cones only if loads are much of what is left: no stiffness finds
+// their slip.
 static void stiffen(pl_exact_newton *n, double loads, double left)
 {
     const bool pulls = n->s->sweep == PL_SWEEP_PULL;
@@ -410,7 +408,7 @@ void pl_exact_solve(pl_exact_system *s)
                           .stiffness = STIFFNESS,
                           .loads = INFINITY,
                           .last = INFINITY,
-                          .unasked = s->world->solver.hard_cluster != PL_NONE };
+                          .unasked = pl_exact_is_unasked(s->world) };
     if (pulls) {
         pl_exact_bend(s, 0); // what the arcs of the start ask for is to be undone, too
     }
@@ -418,7 +416,6 @@ void pl_exact_solve(pl_exact_system *s)
     pl_exact_push_all(s, 1); // where the solution begins
     const double enough = n.tolerance * n.scale;
     n.enough = 1e-4 * enough * enough * heaviest(s, &n.ratio);
-    n.even = n.ratio <= UNEVEN;
     n.due = STIFFNESS * n.ratio; // heavy on light has to be stiffer by as much
     double left = 0;
     for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {

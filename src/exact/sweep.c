@@ -2,7 +2,7 @@
 // (newton.c), and take the place of one that has gained energy.
 //
 // A row takes the impulse that undoes what it lacks at the velocities of the moment, within its bounds; friction those that the load
-// of the moment allows (Gauss-Seidel with projection). A sweep costs a twentieth of a factor, follows the law of friction itself, and is soon
+// of the moment allows (Gauss-Seidel with projection). A pass costs a fifth of a factor, follows the law of friction itself, and is soon
 // right about what lies near; what goes through many contacts it is slow to learn, and that is what Newton's steps are quick at.
 //
 // Velocities that obey the rows are, of all that do, the nearest to those of the start, by kinetic energy: impulses add no more of it
@@ -36,11 +36,7 @@ static double drive_of(const pl_exact_system *s, const pl_exact_row *r)
 {
     double sum = 0;
     for (int end = 0; end < 2; ++end) {
-        const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[r->item->slot[end]];
-        const double *j = r->j + 3 * end;
-        if (r->item->node[end] == PL_NONE) {
-            sum += fabs(j[0] * (double)b->vx + j[1] * (double)b->vy + j[2] * (double)b->w);
-        }
+        sum += r->item->node[end] == PL_NONE ? fabs(pl_exact_driven(s, r, end)) : 0;
     }
     return sum;
 }
@@ -66,12 +62,11 @@ static void gather_end(const pl_exact_system *s, const pl_exact_row *r, int end,
                        pl_exact_swept_row *out)
 {
     const uint32_t node = r->item->node[end];
-    const double *j = r->j + 3 * end;
     if (node == PL_NONE) {
-        const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[r->item->slot[end]];
-        out->target -= j[0] * (double)b->vx + j[1] * (double)b->vy + j[2] * (double)b->w;
+        out->target -= pl_exact_driven(s, r, end);
         return;
     }
+    const double *j = r->j + 3 * end;
     out->at[end] = 3 * node;
     for (int c = 0; c < 3; ++c) {
         out->j[3 * end + c] = j[c];

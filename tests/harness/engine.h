@@ -60,8 +60,7 @@ struct engine_options {
     double skin;                  ///< [m] round polygons, where the engine has one; < 0: its own
     int width;                    ///< SIMD lanes where they can be chosen; 0: the engine's choice
     int workers;                  ///< threads, where the engine has them; 0: one
-    const char *
-        solver; ///< Plumb: "soft", "baseline", or the soft step with a switch on: "watchdog"; NULL: soft
+    const char *solver;           ///< Plumb: "soft", "baseline", or a switch of "soft"; NULL: soft
     bool
         stiff; ///< what its manual offers for the least give: Box2D 2.4.1: no skin; Box2D 3: contacts
     ///< and joints as stiff as the step allows; Chipmunk: overlap of 0.1 mm instead of 0.1 m

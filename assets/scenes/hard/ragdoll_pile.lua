@@ -1,7 +1,8 @@
 -- ragdoll_pile.lua - ten dolls of eleven parts in a heap, on one another (Box2D: Ragdoll Stress, Jolt: Ragdolls).
 -- Fails: limits and contacts that fight keep it twitching, arms come off. Right: it comes to rest whole.
 scene { title = "Ragdoll pile", duration = 12, seed = 2 }
-local n, stiff = param("n", 10, 1, 60), param("stiff", 0.3, 0, 10) -- [N m] friction of a joint, or a limb that hangs free swings on
+local n = param("n", 10, 1, 60)
+local stiff = param("stiff", 0.3, 0, 10) -- [N m] friction of a joint; without it a limb that hangs free swings on
 local cloth = material { density = 100, friction = 0.6 }
 body { type = "static", material = cloth, box { 8, 1, at = {0, -0.5} }, box { 1, 20, at = {-2.5, 10} },
        box { 1, 20, at = {2.5, 10} } }
@@ -13,7 +14,9 @@ local function doll(k, x, y)
         parts[#parts + 1] = b
         return b
     end
-    local function hinge(a, b, dx, dy, low, high) revolute { a, b, at = {x + dx, y + dy}, limits = {low, high}, motor = { speed = 0, torque = stiff } } end
+    local function hinge(a, b, dx, dy, low, high)
+        revolute { a, b, at = {x + dx, y + dy}, limits = {low, high}, motor = { speed = 0, torque = stiff } }
+    end
     local chest, belly = part("chest", 0.3, 0.35, 0, 0.2), part("belly", 0.26, 0.25, 0, -0.12)
     local head = part("head", 0.2, 0.22, 0, 0.52)
     hinge(belly, chest, 0, 0, -0.4, 0.4)
