@@ -273,6 +273,7 @@ plumb_result pl_run_air(plumb_world *world, plumb_real dt)
     s->liquid.push_count = 0;
     s->liquid.grid.h = (near_real)h;
     s->liquid.grid.tasks = world->tasks;
+    s->liquid.grid.kernels = pl_liquid_kernels_for(world->desc.simd_width);
     if (!pl_buffer_reserve(&world->memory, &s->moved, bytes) ||
         !pl_air_make_columns(&world->memory, s, pl_air_extent_of(d)) ||
         !pl_air_add_sides(&world->memory, s, d) ||

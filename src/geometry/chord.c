@@ -30,8 +30,19 @@ static void meet_edge(interval *out, double ax, double ay, double bx, double by,
     }
 }
 
-bool pl_chord(const double *x, const double *y, int n, double radius, double at, double *low,
-              double *high)
+// The same of an edge that is not moved.
+static void meet_side(interval *out, double ax, double ay, double bx, double by, double at)
+{
+    const double from = at - ax, dx = bx - ax;
+    if (from == 0) {
+        widen(out, ay);
+    }
+    if (dx != 0 && (dx > 0 ? from >= 0 && from <= dx : from <= 0 && from >= dx)) {
+        widen(out, ay + (by - ay) * (from / dx));
+    }
+}
+
+static interval chord_of_round(const double *x, const double *y, int n, double radius, double at)
 {
     interval out = { INFINITY, -INFINITY };
     for (int i = 0; i < n; ++i) {
@@ -46,6 +57,20 @@ bool pl_chord(const double *x, const double *y, int n, double radius, double at,
         if (n == 2) {
             meet_edge(&out, x[k], y[k], x[i], y[i], radius, at);
         }
+    }
+    return out;
+}
+
+bool pl_chord(const double *x, const double *y, int n, double radius, double at, double *low,
+              double *high)
+{
+    interval out = { INFINITY, -INFINITY };
+    if (radius != 0) {
+        out = chord_of_round(x, y, n, radius, at);
+    }
+    for (int i = 0; i < n && radius == 0; ++i) {
+        const int k = i + 1 < n ? i + 1 : 0;
+        meet_side(&out, x[i], y[i], x[k], y[k], at);
     }
     *low = out.low;
     *high = out.high;

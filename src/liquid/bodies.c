@@ -188,6 +188,11 @@ void pl_liquid_find_reach(pl_liquid_solid *s)
     s->low_x = s->low_y = INFINITY;
     s->high_x = s->high_y = -INFINITY;
     for (int i = 0; i < s->count; ++i) {
+        const int k = i + 1 < s->count ? i + 1 : 0;
+        const double dx = s->x[k] - s->x[i], dy = s->y[k] - s->y[i];
+        const double length = sqrt(dx * dx + dy * dy);
+        s->nx[i] = length > 0 ? dy / length : 0;
+        s->ny[i] = length > 0 ? -dx / length : 0;
         s->low_x = least(s->low_x, s->x[i] - s->radius);
         s->low_y = least(s->low_y, s->y[i] - s->radius);
         s->high_x = -least(-s->high_x, -s->x[i] - s->radius);

@@ -101,12 +101,16 @@ static void spot_range(void *context, uint32_t first, uint32_t count)
     }
 }
 
-void pl_liquid_find_spots(pl_liquid_grid *g, pl_liquid_spot *spots, const plumb_particle *particles,
-                          uint32_t count)
+bool pl_liquid_find_spots(pl_memory *memory, pl_liquid_scratch *scratch,
+                          const plumb_particle *particles, uint32_t count)
 {
-    const double h = (double)g->h;
-    build b = { .g = g, .particles = particles, .spots = spots, .scale = 1 / h };
+    pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(memory, &scratch->spots, (count + 1) * sizeof(pl_liquid_spot))) {
+        return false;
+    }
+    build b = { g, particles, NULL, scratch->spots.data, 1 / (double)g->h };
     pl_tasks_ranges(g->tasks, count, FEWEST, spot_range, &b);
+    return true;
 }
 
 static void cell_range(void *context, uint32_t first, uint32_t count)
@@ -201,15 +205,10 @@ bool pl_liquid_make_cells(pl_memory *memory, pl_liquid_scratch *scratch)
 }
 
 bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
-                          const plumb_particle *particles, uint32_t count, double h)
+                          const plumb_particle *particles, uint32_t count)
 {
     pl_liquid_grid *g = &scratch->grid;
-    g->h = (near_real)h;
-    if (!pl_buffer_reserve(memory, &scratch->spots, (count + 1) * sizeof(pl_liquid_spot))) {
-        return false;
-    }
-    build b = { g, particles, g->strays, scratch->spots.data, 1 / h };
-    pl_liquid_find_spots(g, b.spots, particles, count);
+    build b = { g, particles, g->strays, scratch->spots.data, 1 / (double)g->h };
     if (!pl_liquid_find_tiles(memory, scratch, count) || !pl_liquid_make_cells(memory, scratch) ||
         (g->mixture != NULL && !pl_liquid_make_mixture(memory, scratch))) {
         return false;
@@ -228,7 +227,7 @@ void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
         &scratch->blends,  &scratch->mixed,      &scratch->rooms,       &scratch->room_cells,
         &scratch->order,   &scratch->supports,   &scratch->joined,      &scratch->nodes,
         &scratch->rings,   &scratch->softbodies, &scratch->soft_links,  &scratch->sides,
-        &scratch->touches, &scratch->tension
+        &scratch->touches, &scratch->tension,    &scratch->rims
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);

@@ -61,13 +61,14 @@ void pl_liquid_fly(const pl_liquid_grid *grid, plumb_vec2 gravity, double dt,
 
 //---- grid.c --------------------------------------------------------------------------------------
 
-// Tiles round the particles, points sorted by cell, and by their order within one. False when out of memory.
+// In which cell each particle is; the grid's `h` must be set. False when out of memory.
+bool pl_liquid_find_spots(pl_memory *memory, pl_liquid_scratch *scratch,
+                          const plumb_particle *particles, uint32_t count);
+// Of particles in these: tiles round them, points sorted by cell, and by their order within one. False when out of memory.
 bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
-                          const plumb_particle *particles, uint32_t count, double h);
+                          const plumb_particle *particles, uint32_t count);
 // The cells of its sorted tiles, without any point. False when out of memory.
 bool pl_liquid_make_cells(pl_memory *memory, pl_liquid_scratch *scratch);
-void pl_liquid_find_spots(pl_liquid_grid *grid, pl_liquid_spot *spots,
-                          const plumb_particle *particles, uint32_t count);
 // The cell at (i, j); 0: in no tile.
 uint32_t pl_liquid_cell_at(const pl_liquid_grid *grid, int32_t i, int32_t j);
 // Runs over all cells but cell 0, shared out among threads: range counts them from 0.
@@ -140,12 +141,46 @@ bool pl_liquid_add_strip(pl_memory *memory, pl_liquid_scratch *scratch, int32_t 
 bool pl_liquid_make_grids(pl_memory *memory, pl_liquid_scratch *scratch);
 // The matrices of the coarser grids.
 void pl_liquid_fold_grids(pl_liquid_grid *grid);
-// out[0..15]: a strip of the matrix times a vector.
-void pl_liquid_multiply_strip(const pl_liquid_grid *grid, uint32_t strip, const near_real *vector,
-                              near_real *restrict out);
 // Q: about the inverse of the matrix times R, but for the last sweep on the finest grid. Z must be I R.
 void pl_liquid_cycle(pl_liquid_grid *grid);
-void pl_liquid_sweep_strip(const pl_liquid_grid *grid, uint32_t strip);
+
+// strips.simd.c: loops over the strips from first to end, compiled once for each size of vector register.
+struct pl_liquid_kernels {
+    // out: the matrix times v. The answer is v . out.
+    double (*multiply)(const pl_liquid_grid *grid, uint32_t first, uint32_t end, const near_real *v,
+                       near_real *out);
+    // to = from + I (R - A from). The answer is to . R.
+    double (*sweep)(const pl_liquid_grid *grid, uint32_t first, uint32_t end, const near_real *from,
+                    near_real *to);
+    // What the finer grid leaves goes to R of these, with Z, the first sweep there; what they answer, Q, is added to Z of
+    // the finer one.
+    void (*go_down)(const pl_liquid_grid *grid, uint32_t first, uint32_t end);
+    void (*come_up)(const pl_liquid_grid *grid, uint32_t first, uint32_t end);
+    // P += factor S, R -= factor Z, Z = I R. The answer is the largest of R.
+    double (*descend)(const pl_liquid_grid *grid, uint32_t first, uint32_t end, near_real factor);
+    // S = Q + factor S
+    void (*turn)(const pl_liquid_grid *grid, uint32_t first, uint32_t end, near_real factor);
+    // What pressures p do to the sums of bodies: force over density h^2.
+    void (*sum_rims)(pl_liquid_grid *grid, const near_real *p);
+    // The same, and what bodies make of them is added to out, a product with the matrix. The answer is what this adds to p . A p.
+    double (*add_rims)(pl_liquid_grid *grid, const near_real *p, near_real *out, double push);
+};
+
+extern const pl_liquid_kernels pl_liquid_kernels_w4;
+extern const pl_liquid_kernels pl_liquid_kernels_w8;
+extern const pl_liquid_kernels pl_liquid_kernels_w16;
+
+static inline const pl_liquid_kernels *pl_liquid_kernels_for(int width)
+{
+    return width == 16  ? &pl_liquid_kernels_w16
+           : width == 8 ? &pl_liquid_kernels_w8
+                        : &pl_liquid_kernels_w4;
+}
+
+static inline uint32_t pl_liquid_cell_of(const pl_liquid_grid *grid, uint32_t row)
+{
+    return grid->strips[row / PL_LIQUID_SIDE].cell + row % PL_LIQUID_SIDE;
+}
 
 // How open a cell's left, right, lower and upper faces are. Cell 0 is open.
 static inline void pl_liquid_faces_of(const pl_liquid_grid *grid, uint32_t cell, near_real open[4])
@@ -177,6 +212,9 @@ static inline pl_liquid_ends pl_liquid_ends_of(const pl_liquid_grid *grid, uint3
     const uint32_t other = upright ? grid->down[cell] : grid->left[cell];
     return (pl_liquid_ends){ grid->row[other], grid->row[cell] };
 }
+
+// What lies beside bodies, once cells have rows. False when out of memory.
+bool pl_liquid_find_rims(pl_memory *memory, pl_liquid_scratch *scratch);
 
 // What adds to the speed of what closes a face.
 static inline void pl_liquid_add_speed(pl_liquid_grid *grid, uint32_t cell, bool upright,
@@ -215,6 +253,8 @@ bool pl_liquid_even_out(pl_memory *memory, pl_liquid_scratch *scratch);
 
 //---- rooms.c -------------------------------------------------------------------------------------
 
+// Which cells open faces join, once they have rows. False when out of memory.
+bool pl_liquid_find_rooms(pl_memory *memory, pl_liquid_scratch *scratch);
 // Takes out of vectors[PL_LIQUID_R] what has no answer, before it is solved for. False when out of memory.
 bool pl_liquid_balance(pl_memory *memory, pl_liquid_scratch *scratch, bool bodies_move);
 // The same where bodies reach into walls and close pockets off, which leak: the solution that follows evens such rooms out. False when out of
@@ -282,7 +322,7 @@ bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_li
                            real dt);
 // Gravity and forces on bodies in dt.
 void pl_liquid_pull_bodies(plumb_world *world, real dt);
-// The box of a solid, from its corners.
+// The box of a solid and the normals of its sides, from its corners.
 void pl_liquid_find_reach(pl_liquid_solid *solid);
 // Bodies go on by their velocities for dt, and solids with them.
 void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, double dt);

@@ -60,20 +60,29 @@ static gap gap_to(const pl_liquid_solid *s, place at)
     bool is_in = s->count > 2;
     for (int i = 0; i < s->count; ++i) {
         const int k = i + 1 < s->count ? i + 1 : 0;
-        const double dx = s->x[k] - s->x[i], dy = s->y[k] - s->y[i];
-        const double length = sqrt(dx * dx + dy * dy);
         const gap edge = gap_to_segment(s, i, k, at);
         outside = edge.distance < outside.distance ? edge : outside;
-        if (length > 0) {
-            const double nx = dy / length, ny = -dx / length;
-            const double d = (at.x - s->x[i]) * nx + (at.y - s->y[i]) * ny;
+        if (s->nx[i] != 0 || s->ny[i] != 0) {
+            const double d = (at.x - s->x[i]) * s->nx[i] + (at.y - s->y[i]) * s->ny[i];
             is_in &= d < 0;
-            inside = d > inside.distance && (s->exits >> i & 1) != 0 ? (gap){ d, nx, ny } : inside;
+            inside = d > inside.distance && (s->exits >> i & 1) != 0
+                         ? (gap){ d, s->nx[i], s->ny[i] }
+                         : inside;
         }
     }
     gap out = is_in ? inside : outside;
     out.distance -= s->radius;
     return out;
+}
+
+// Whether it is a skin off one side's line, and so off the piece.
+static bool is_clear(const pl_liquid_solid *s, place at)
+{
+    bool clear = false;
+    for (int i = 0; i < s->count; ++i) {
+        clear |= (at.x - s->x[i]) * s->nx[i] + (at.y - s->y[i]) * s->ny[i] >= s->radius + SKIN;
+    }
+    return clear;
 }
 
 // Where the way meets an edge of a piece: it ends a skin before it, or goes on along it if it slides.
@@ -108,7 +117,7 @@ static place cut(const pl_liquid_solid *s, bool slides, place from, place to, pl
 
 static place out_of(const pl_liquid_solid *s, place to, place *normal)
 {
-    const gap out = gap_to(s, to);
+    const gap out = is_clear(s, to) ? (gap){ INFINITY, 0, 0 } : gap_to(s, to);
     if (out.distance < SKIN) {
         *normal = (place){ out.nx, out.ny };
         to.x += (SKIN - out.distance) * out.nx;
@@ -164,11 +173,55 @@ static bool is_within(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
     return within;
 }
 
-// `normal` of what stands and has stopped one that is fast; else none.
-static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place from, place to,
-                      place *normal)
+// How near a place must be to a solid's box to be kept out of it. Only what may be crossed matters before a way ends in it.
+static double room_at(const pl_liquid_solid *s, bool fast)
 {
-    const double room = SKIN + MOST_WAY;
+    return s->thin || fast ? SKIN + MOST_WAY : 2 * SKIN;
+}
+
+#define MARGIN 2 // cells around a tile where ways from it end
+#define ACROSS (PL_LIQUID_SIDE + 2 * MARGIN)
+#define LISTED 64 // solids at a tile that bits are kept of
+
+// Which of a tile's solids slow ways that end in a column and in a row of cells meet: a bit each.
+typedef struct fence {
+    const pl_liquid_tile *tile;
+    uint64_t columns[ACROSS], rows[ACROSS];
+} fence;
+
+static int across_of(double at, int32_t tile)
+{
+    const double cell = at - (double)tile * PL_LIQUID_SIDE + MARGIN;
+    return cell <= 0 ? 0 : cell >= ACROSS - 1 ? ACROSS - 1 : (int)cell;
+}
+
+static void raise(fence *f, const pl_liquid_grid *g, const pl_liquid_tile *tile)
+{
+    *f = (fence){ .tile = tile };
+    for (uint32_t k = 0; k < tile->solid_count && k < LISTED; ++k) {
+        const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
+        const double room = room_at(s, false);
+        const int right = across_of(s->high_x + room, tile->x);
+        const int top = across_of(s->high_y + room, tile->y);
+        for (int i = across_of(s->low_x - room, tile->x); i <= right; ++i) {
+            f->columns[i] |= UINT64_C(1) << k;
+        }
+        for (int j = across_of(s->low_y - room, tile->y); j <= top; ++j) {
+            f->rows[j] |= UINT64_C(1) << k;
+        }
+    }
+}
+
+static uint64_t near_of(const fence *f, place at, bool fast)
+{
+    return fast ? UINT64_MAX
+                : f->columns[across_of(at.x, f->tile->x)] & f->rows[across_of(at.y, f->tile->y)];
+}
+
+// `normal` of what stands and has stopped one that is fast; else none.
+static place keep_out(const pl_liquid_grid *g, const fence *f, place from, place to, place *normal)
+{
+    const pl_liquid_tile *tile = f->tile;
     const double way = larger(fabs(to.x - from.x), fabs(to.y - from.y));
     const bool fast = way > LEAST_WIDTH / 2;
     place unused;
@@ -177,8 +230,14 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
     if (way > MOST_WAY) {
         return pl_liquid_slide_all(g, from, to, &unused);
     }
-    for (uint32_t k = tile->solid_count; k-- > 0;) { // as above
+    uint64_t near = near_of(f, to, fast);
+    uint32_t k = near == 0 && tile->solid_count <= LISTED ? 0 : tile->solid_count;
+    while (k-- > 0) { // as above
+        if (k < LISTED && (near >> k & 1) == 0) {
+            continue;
+        }
         const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
+        const double room = room_at(s, fast);
         if (to.x >= s->low_x - room && to.x <= s->high_x + room && to.y >= s->low_y - room &&
             to.y <= s->high_y + room) {
             place met = { 0, 0 };
@@ -187,6 +246,7 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
             *normal = fast && stands(g, s) && (met.x != 0 || met.y != 0) ? met : *normal;
             held |= stands(g, s) && (out.x != to.x || out.y != to.y);
             to = out;
+            near = near_of(f, to, fast);
         }
     }
     // Where two that stand lie flush, each would push it into the other, and it into the seam.
@@ -233,9 +293,13 @@ static void move_range(void *context, uint32_t first, uint32_t count)
     const double h = (double)g->h;
     const near_real scale = 1 / g->h, fastest = (near_real)PL_LIQUID_SPEED;
     const near_real steepest = (near_real)PL_LIQUID_SLOPE;
+    fence f = { .tile = NULL };
     for (uint32_t k = first; k < first + count; ++k) {
         pl_liquid_point *p = &g->points[k];
         const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
+        if (tile != f.tile) {
+            raise(&f, g, tile);
+        }
         const place from = place_of(g, p);
         place end = end_of(g, p, from, m->way);
         if (g->mixture != NULL) {
@@ -243,7 +307,7 @@ static void move_range(void *context, uint32_t first, uint32_t count)
             end.x += drift.x, end.y += drift.y;
         }
         place normal;
-        const place to = keep_out(g, tile, from, end, &normal);
+        const place to = keep_out(g, &f, from, end, &normal);
         // Kept, a film under a crate made more of it in every step: 70 m/s into the ground.
         const double into = normal.x * (double)p->u + normal.y * (double)p->v;
         if (into < 0) {

@@ -176,49 +176,6 @@ void pl_liquid_fold_grids(pl_liquid_grid *g)
     }
 }
 
-//---- kernels of a strip --------------------------------------------------------------------------
-
-// Vectors reach one strip below their first and one above their last: what lies there is multiplied by 0.
-void pl_liquid_multiply_strip(const pl_liquid_grid *g, uint32_t s, const near_real *v,
-                              near_real *restrict out)
-{
-    const size_t at = (size_t)s * LINE;
-    const size_t below = (size_t)g->strips[s].down * LINE, above = (size_t)g->strips[s].up * LINE;
-    const near_real *d = g->vectors[PL_LIQUID_D] + at, *l = g->vectors[PL_LIQUID_L] + at;
-    const near_real *b = g->vectors[PL_LIQUID_B] + at, *t = g->vectors[PL_LIQUID_B] + above;
-    const near_real *here = v + at, *low = v + below, *high = v + above;
-    for (int i = 0; i < LINE; ++i) {
-        out[i] = d[i] * here[i] - l[i] * here[i - 1] - l[i + 1] * here[i + 1] - b[i] * low[i] -
-                 t[i] * high[i];
-    }
-}
-
-// to = from + I (R - A from)
-static void sweep_strip(const pl_liquid_grid *g, uint32_t s, const near_real *from, near_real *to)
-{
-    const size_t at = (size_t)s * LINE;
-    const near_real *r = g->vectors[PL_LIQUID_R] + at, *inverse = g->vectors[PL_LIQUID_I] + at;
-    near_real product[LINE];
-    pl_liquid_multiply_strip(g, s, from, product);
-    for (int i = 0; i < LINE; ++i) {
-        to[at + (size_t)i] = from[at + (size_t)i] + inverse[i] * (r[i] - product[i]);
-    }
-}
-
-// What a finer strip leaves, in pairs.
-static void add_pairs(const pl_liquid_grid *g, uint32_t s, near_real *restrict out)
-{
-    const near_real *r = g->vectors[PL_LIQUID_R] + (size_t)s * LINE;
-    near_real left[LINE];
-    pl_liquid_multiply_strip(g, s, g->vectors[PL_LIQUID_Z], left);
-    for (int i = 0; i < LINE; ++i) {
-        left[i] = r[i] - left[i];
-    }
-    for (int i = 0; i < LINE / 2; ++i) {
-        out[i] += left[2 * i] + left[2 * i + 1];
-    }
-}
-
 //---- the cycle -----------------------------------------------------------------------------------
 
 typedef struct walk {
@@ -226,54 +183,23 @@ typedef struct walk {
     uint32_t first; // strip
 } walk;
 
-// What is left on the finer grid goes to the coarser one, with the first sweep there.
 static void go_down(void *context, uint32_t first, uint32_t count)
 {
     const walk *w = context;
-    const pl_liquid_grid *g = w->g;
-    for (uint32_t s = w->first + first; s < w->first + first + count; ++s) {
-        near_real sum[LINE] = { 0 };
-        for (uint32_t k = 0; k < 4; ++k) {
-            if (g->strips[s].finer[k] != 0) {
-                add_pairs(g, g->strips[s].finer[k], sum + k % 2 * (LINE / 2));
-            }
-        }
-        const size_t at = (size_t)s * LINE;
-        for (uint32_t i = 0; i < LINE; ++i) {
-            g->vectors[PL_LIQUID_R][at + i] = sum[i];
-            g->vectors[PL_LIQUID_Z][at + i] = g->vectors[PL_LIQUID_I][at + i] * sum[i];
-        }
-    }
+    w->g->kernels->go_down(w->g, w->first + first, w->first + first + count);
 }
 
-// The coarser grid's answer is added on the finer one.
 static void come_up(void *context, uint32_t first, uint32_t count)
 {
     const walk *w = context;
-    const pl_liquid_grid *g = w->g;
-    for (uint32_t s = w->first + first; s < w->first + first + count; ++s) {
-        const near_real *q = g->vectors[PL_LIQUID_Q] + (size_t)s * LINE;
-        for (uint32_t k = 0; k < 4; ++k) {
-            const uint32_t finer = g->strips[s].finer[k];
-            if (finer == 0) {
-                continue;
-            }
-            const near_real *part = q + k % 2 * (LINE / 2);
-            near_real *z = g->vectors[PL_LIQUID_Z] + (size_t)finer * LINE;
-            const near_real *d = g->vectors[PL_LIQUID_D] + (size_t)finer * LINE;
-            for (int i = 0; i < LINE; ++i) {
-                z[i] += d[i] > 0 ? part[i / 2] : 0;
-            }
-        }
-    }
+    w->g->kernels->come_up(w->g, w->first + first, w->first + first + count);
 }
 
-static void sweep_up(void *context, uint32_t first, uint32_t count)
+static void sweep(void *context, uint32_t first, uint32_t count)
 {
     const walk *w = context;
-    for (uint32_t s = w->first + first; s < w->first + first + count; ++s) {
-        sweep_strip(w->g, s, w->g->vectors[PL_LIQUID_Z], w->g->vectors[PL_LIQUID_Q]);
-    }
+    w->g->kernels->sweep(w->g, w->first + first, w->first + first + count,
+                         w->g->vectors[PL_LIQUID_Z], w->g->vectors[PL_LIQUID_Q]);
 }
 
 static void run_level(pl_liquid_grid *g, uint32_t level, pl_range_fn *range)
@@ -288,9 +214,7 @@ static void solve_coarsest(pl_liquid_grid *g)
     const pl_liquid_level *at = &g->levels[g->level_count - 1];
     near_real *from = g->vectors[PL_LIQUID_Z], *to = g->vectors[PL_LIQUID_Q];
     for (int k = 0; k < SWEEPS; ++k) {
-        for (uint32_t s = at->first; s < at->end; ++s) {
-            sweep_strip(g, s, from, to);
-        }
+        g->kernels->sweep(g, at->first, at->end, from, to);
         near_real *other = from;
         from = to;
         to = other;
@@ -307,15 +231,7 @@ void pl_liquid_cycle(pl_liquid_grid *g)
     for (uint32_t level = g->level_count - 1; level > 0; --level) {
         run_level(g, level, come_up);
         if (level > 1) {
-            run_level(g, level - 1, sweep_up);
+            run_level(g, level - 1, sweep);
         }
-    }
-}
-
-// The last sweep of a cycle: in Q, where a cycle had no coarser grid the answer is there already.
-void pl_liquid_sweep_strip(const pl_liquid_grid *g, uint32_t s)
-{
-    if (g->level_count > 1) {
-        sweep_strip(g, s, g->vectors[PL_LIQUID_Z], g->vectors[PL_LIQUID_Q]);
     }
 }

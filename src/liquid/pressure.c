@@ -14,7 +14,6 @@
 //
 // Reads: openness, velocities, links. Writes: strips, vectors, velocities of faces and bodies. Cost: O(rows x iterations).
 #include "liquid/liquid.h"
-#include "core/quad.h"
 
 #include <math.h>
 #include <string.h>
@@ -101,7 +100,8 @@ bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
     if (!pl_liquid_find_wet(memory, scratch) || !pl_liquid_first_strip(memory, scratch) ||
-        !add_strips(memory, scratch) || !pl_liquid_make_grids(memory, scratch)) {
+        !add_strips(memory, scratch) || !pl_liquid_make_grids(memory, scratch) ||
+        !pl_liquid_find_rims(memory, scratch) || !pl_liquid_find_rooms(memory, scratch)) {
         return false;
     }
     const size_t room =
@@ -143,36 +143,13 @@ typedef struct work {
 } work;
 
 typedef struct interval {
-    size_t first, end;    // rows
-    uint32_t strip, stop; // strips
+    uint32_t first, end; // strips
 } interval;
 
 static interval interval_of(const pl_liquid_grid *g, uint32_t chunk)
 {
     const uint32_t first = 1 + chunk * CHUNK, end = first + CHUNK, all = g->levels[0].end;
-    const uint32_t stop = end < all ? end : all;
-    return (interval){ (size_t)first * LINE, (size_t)stop * LINE, first, stop };
-}
-
-// Four at a time. Macros: a function that takes a quad of doubles would take it another way with AVX than without.
-typedef near_real quad
-    __attribute__((vector_size(4 * sizeof(near_real)), aligned(sizeof(near_real)), may_alias));
-#define QUAD(v)             (*(quad *)(void *)(v))
-#define CHOOSE(where, a, b) ((quad)(((where) & (pl_near_mask)(a)) | (~(where) & (pl_near_mask)(b))))
-
-static double dot(const near_real *a, const near_real *b, interval at)
-{
-    near_real parts[LINE] = { 0 };
-    for (size_t i = at.first; i < at.end; i += LINE) {
-        for (size_t k = 0; k < LINE; ++k) {
-            parts[k] += a[i + k] * b[i + k];
-        }
-    }
-    double total = 0;
-    for (int k = 0; k < LINE; ++k) {
-        total += (double)parts[k];
-    }
-    return total;
+    return (interval){ first, end < all ? end : all };
 }
 
 // Z = A S, and S . Z
@@ -181,67 +158,37 @@ static void multiply_chunks(void *context, uint32_t first, uint32_t count)
     pl_liquid_grid *g = ((work *)context)->g;
     for (uint32_t c = first; c < first + count; ++c) {
         const interval at = interval_of(g, c);
-        for (uint32_t s = at.strip; s < at.stop; ++s) {
-            pl_liquid_multiply_strip(g, s, g->vectors[PL_LIQUID_S],
-                                     g->vectors[PL_LIQUID_Z] + (size_t)s * LINE);
-        }
-        g->sums[c] = dot(g->vectors[PL_LIQUID_S], g->vectors[PL_LIQUID_Z], at);
+        g->sums[c] = g->kernels->multiply(g, at.first, at.end, g->vectors[PL_LIQUID_S],
+                                          g->vectors[PL_LIQUID_Z]);
     }
 }
 
-// P += a S, R -= a Z, Z = I R, and the largest of R
-static void step_chunks(void *context, uint32_t first, uint32_t count)
+static void descend_chunks(void *context, uint32_t first, uint32_t count)
 {
     const work *w = context;
-    const pl_liquid_grid *g = w->g;
-    const near_real factor = w->factor;
-    near_real *p = g->vectors[PL_LIQUID_P], *r = g->vectors[PL_LIQUID_R];
-    near_real *z = g->vectors[PL_LIQUID_Z];
-    const near_real *s = g->vectors[PL_LIQUID_S], *inverse = g->vectors[PL_LIQUID_I];
     for (uint32_t c = first; c < first + count; ++c) {
-        const interval at = interval_of(g, c);
-        quad most = { 0 }, least = { 0 };
-        for (size_t i = at.first; i < at.end; i += 4) {
-            const quad left = QUAD(r + i) - factor * QUAD(z + i);
-            QUAD(p + i) += factor * QUAD(s + i);
-            QUAD(r + i) = left;
-            QUAD(z + i) = QUAD(inverse + i) * left;
-            most = CHOOSE(left > most, left, most);
-            least = CHOOSE(left < least, left, least);
-        }
-        g->sums[c] = 0;
-        for (int k = 0; k < 4; ++k) {
-            g->sums[c] = (double)most[k] > g->sums[c] ? (double)most[k] : g->sums[c];
-            g->sums[c] = (double)-least[k] > g->sums[c] ? (double)-least[k] : g->sums[c];
-        }
+        const interval at = interval_of(w->g, c);
+        w->g->sums[c] = w->g->kernels->descend(w->g, at.first, at.end, w->factor);
     }
 }
 
-// The last sweep of a cycle, and Q . R
+// The last sweep of a cycle, and Q . R. Without a coarser grid it repeats the last of those that the cycle made.
 static void sweep_chunks(void *context, uint32_t first, uint32_t count)
 {
     pl_liquid_grid *g = ((work *)context)->g;
     for (uint32_t c = first; c < first + count; ++c) {
         const interval at = interval_of(g, c);
-        for (uint32_t s = at.strip; s < at.stop; ++s) {
-            pl_liquid_sweep_strip(g, s);
-        }
-        g->sums[c] = dot(g->vectors[PL_LIQUID_Q], g->vectors[PL_LIQUID_R], at);
+        g->sums[c] = g->kernels->sweep(g, at.first, at.end, g->vectors[PL_LIQUID_Z],
+                                       g->vectors[PL_LIQUID_Q]);
     }
 }
 
-// S = Q + b S
 static void turn_chunks(void *context, uint32_t first, uint32_t count)
 {
     const work *w = context;
-    const pl_liquid_grid *g = w->g;
-    near_real *restrict s = g->vectors[PL_LIQUID_S];
-    const near_real *restrict q = g->vectors[PL_LIQUID_Q];
     for (uint32_t c = first; c < first + count; ++c) {
-        const interval at = interval_of(g, c);
-        for (size_t i = at.first; i < at.end; ++i) {
-            s[i] = q[i] + w->factor * s[i];
-        }
+        const interval at = interval_of(w->g, c);
+        w->g->kernels->turn(w->g, at.first, at.end, w->factor);
     }
 }
 
@@ -293,7 +240,7 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
     memset(g->vectors[PL_LIQUID_P], 0, bytes);
     memset(g->vectors[PL_LIQUID_S], 0, bytes);
     memset(g->vectors[PL_LIQUID_Z], 0, bytes);
-    run(g, step_chunks, 0);
+    run(g, descend_chunks, 0);
     even_residual(g);
     const double wanted = tolerance * most_of(g), enough = wanted > floor ? wanted : floor;
     double sigma = 0;
@@ -315,7 +262,7 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
         if (!(bend > 0)) {
             return;
         }
-        run(g, step_chunks, sigma / bend);
+        run(g, descend_chunks, sigma / bend);
         even_residual(g);
         ++g->iterations;
     }

@@ -20,10 +20,6 @@
 //---- faces ---------------------------------------------------------------------------------------
 
 // A solid in a tile: coordinates from the tile's corner, with x and y exchanged for lines y = at.
-typedef struct interval {
-    double low, high;
-} interval;
-
 typedef struct view {
     double x[16], y[16];
     double radius, left, right; // left, right: how far it reaches along x
@@ -107,6 +103,12 @@ static int first_at(double low)
     return low >= SIDE ? SIDE : low > 0 ? (int)low : 0;
 }
 
+// The one behind the last that begins below a place.
+static int end_at(double high)
+{
+    return high >= SIDE ? SIDE : high > 0 ? (int)ceil(high) : 0;
+}
+
 // Lines x = i of a tile, from its left side on.
 static bool close_lines(pl_memory *memory, pl_liquid_scratch *scratch, const view *v)
 {
@@ -145,28 +147,24 @@ static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const v
     return true;
 }
 
-static interval chord_at(const view *v, double at)
-{
-    interval c;
-    if (!pl_chord(v->x, v->y, v->solid->count, v->radius, at, &c.low, &c.high)) {
-        c = (interval){ 0, 0 };
-    }
-    return c;
-}
-
 // Gauss's rule of three chords over as much of a column of cells as the piece is wide.
 typedef struct column {
-    interval chords[3];
-    double at[3], width;
+    double at[3], low[3], high[3], width;
+    double bottom, top; // of all chords
 } column;
 
 static column column_at(const view *v, int i)
 {
     const double from = v->left > i ? v->left : i, to = v->right < i + 1 ? v->right : i + 1;
     const double middle = (from + to) / 2, off = (to - from) * 0.3872983346207417;
-    column c = { .at = { middle - off, middle, middle + off }, .width = to - from };
+    column c = { .at = { middle - off, middle, middle + off },
+                 .width = to - from,
+                 .bottom = INFINITY,
+                 .top = -INFINITY };
     for (int k = 0; k < 3 && c.width > 0; ++k) {
-        c.chords[k] = chord_at(v, c.at[k]);
+        pl_chord(v->x, v->y, v->solid->count, v->radius, c.at[k], &c.low[k], &c.high[k]);
+        c.bottom = c.low[k] < c.bottom ? c.low[k] : c.bottom;
+        c.top = c.high[k] > c.top ? c.high[k] : c.top;
     }
     return c;
 }
@@ -177,8 +175,8 @@ static double area_in(const column *c, double low, double high, double *mean)
     static const double weights[3] = { 5.0 / 18, 8.0 / 18, 5.0 / 18 };
     double area = 0, moment = 0;
     for (int k = 0; k < 3; ++k) {
-        const double from = c->chords[k].low > low ? c->chords[k].low : low;
-        const double to = c->chords[k].high < high ? c->chords[k].high : high;
+        const double from = c->low[k] > low ? c->low[k] : low;
+        const double to = c->high[k] < high ? c->high[k] : high;
         const double part = from < to ? weights[k] * c->width * (to - from) : 0;
         area += part;
         moment += part * c->at[k];
@@ -187,28 +185,36 @@ static double area_in(const column *c, double low, double high, double *mean)
     return area;
 }
 
-static void cover_cells(pl_liquid_grid *g, const view *v)
+static void cover_cells(pl_liquid_grid *g, const view *v, const column *c, int i)
 {
     double mean;
-    for (int i = 0; i < SIDE; ++i) {
+    for (int j = first_at(c->bottom), end = end_at(c->top); j < end; ++j) {
+        near_real *cover = &g->cover[cell_of(v, i, j)];
+        *cover += (near_real)area_in(c, j, j + 1, &mean);
+        *cover = *cover > 1 ? 1 : *cover;
+    }
+}
+
+static void cover_columns(pl_liquid_grid *g, const view *v)
+{
+    for (int i = first_at(v->left), end = end_at(v->right); i < end; ++i) {
         const column c = column_at(v, i);
-        for (int j = 0; j < SIDE && c.width > 0; ++j) {
-            near_real *cover = &g->cover[cell_of(v, i, j)];
-            *cover += (near_real)area_in(&c, j, j + 1, &mean);
-            *cover = *cover > 1 ? 1 : *cover;
-        }
+        cover_cells(g, v, &c, i);
     }
 }
 
 // Bodies that yield take of a face what they have of the area between the centres of its two cells: so the pressures of water at
 // rest add up to the weight of what they displace, wherever they lie in their cells (Batty et al. 2007). They shut it as if they were
-// thinner by a film.
+// thinner by a film. Columns of cells tell how much of these is solid, too.
 static bool close_areas(pl_memory *memory, pl_liquid_scratch *scratch, const view *v,
                         const view *film)
 {
-    for (int i = 0; i < SIDE; ++i) {
+    for (int i = first_at(v->left), stop = end_at(v->right); i < stop; ++i) {
         const column whole = column_at(v, i), inner = column_at(film, i);
-        for (int j = 0; j < SIDE && whole.width > 0; ++j) {
+        if (!v->upright) {
+            cover_cells(&scratch->grid, v, &whole, i);
+        }
+        for (int j = first_at(whole.bottom - 0.5), end = end_at(whole.top + 0.5); j < end; ++j) {
             double mean, other;
             const double part = area_in(&whole, j - 0.5, j + 0.5, &mean);
             const double shut = inner.width > 0 ? area_in(&inner, j - 0.5, j + 0.5, &other) : 0;
@@ -280,16 +286,16 @@ static bool close_tile(pl_memory *memory, pl_liquid_scratch *scratch, const pl_l
     if (s->soft) {
         return close_triangle(memory, scratch, &v);
     }
-    cover_cells(g, &v);
-    if (s->thin &&
-        (!close_crossed(memory, scratch, &v, &up) || !close_crossed(memory, scratch, &up, &v))) {
-        return false;
-    }
     if (pl_liquid_yields(g, s)) {
         const view film = view_of(g, tile, t, s, false, true);
         const view film_up = view_of(g, tile, t, s, true, true);
         return close_areas(memory, scratch, &v, &film) &&
                close_areas(memory, scratch, &up, &film_up);
+    }
+    cover_columns(g, &v);
+    if (s->thin &&
+        (!close_crossed(memory, scratch, &v, &up) || !close_crossed(memory, scratch, &up, &v))) {
+        return false;
     }
     return close_lines(memory, scratch, &v) && close_lines(memory, scratch, &up);
 }

@@ -74,12 +74,11 @@ static bool run_part(plumb_world *world, real dt, int i, int parts)
     const plumb_liquid_desc *d = pl_liquid_desc(&world->liquid);
     plumb_particle *moved = scratch->moved.data;
     const double h = 2 * (double)d->spacing;
+    const uint32_t count = world->liquid.count;
     pl_liquid_pull_bodies(world, dt);
-    if (!pl_liquid_grid_build(memory, scratch, moved, world->liquid.count, h) ||
-        !pl_liquid_close_faces(memory, scratch)) {
-        return false;
-    }
-    if (!pl_liquid_sum_cells(memory, scratch)) {
+    if ((i > 0 && !pl_liquid_find_spots(memory, scratch, moved, count)) || // else strays had these
+        !pl_liquid_grid_build(memory, scratch, moved, count) ||
+        !pl_liquid_close_faces(memory, scratch) || !pl_liquid_sum_cells(memory, scratch)) {
         return false;
     }
     pl_liquid_to_grid(g);
@@ -153,11 +152,13 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     scratch->push_count = 0;
     scratch->grid.h = (near_real)h;
     scratch->grid.tasks = world->tasks;
+    scratch->grid.kernels = pl_liquid_kernels_for(world->desc.simd_width);
     scratch->grid.films = true;
     scratch->grid.body_count = scratch->grid.solid_count = 0;
+    const pl_liquid_region region = pl_liquid_region_of(liquid);
     if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
-        !pl_liquid_find_solids(world, scratch, pl_liquid_region_of(liquid), dt) ||
-        !pl_liquid_find_soft(world, scratch, pl_liquid_region_of(liquid), dt) ||
+        !pl_liquid_find_solids(world, scratch, region, dt) ||
+        !pl_liquid_find_soft(world, scratch, region, dt) ||
         !pl_liquid_recall_supports(&world->memory, liquid)) {
         return PLUMB_E_MEMORY;
     }

@@ -5,7 +5,7 @@
 // such particles fly on parabolas, and lose what of their velocity goes into a solid. Who is a stray is found anew in
 // each step, so it is no state.
 //
-// Reads: particles, solids. Writes: strays; those particles. Cost: O(particles + tiles with few of them x bodies near +
+// Reads: particles, solids. Writes: spots, strays; those particles. Cost: O(particles + tiles with few of them x bodies near +
 // strays x solids).
 #include "liquid/liquid.h"
 
@@ -66,13 +66,9 @@ bool pl_liquid_find_strays(pl_memory *memory, pl_liquid_scratch *scratch,
                            const plumb_particle *particles, uint32_t count)
 {
     pl_liquid_grid *g = &scratch->grid;
-    if (!pl_buffer_reserve(memory, &scratch->spots, (count + 1) * sizeof(pl_liquid_spot)) ||
-        !pl_buffer_reserve(memory, &scratch->strays, count + 1) ||
-        !pl_liquid_clear_tiles(memory, scratch)) {
-        return false;
-    }
-    pl_liquid_find_spots(g, scratch->spots.data, particles, count);
-    if (!find_homes(memory, scratch, count)) {
+    if (!pl_buffer_reserve(memory, &scratch->strays, count + 1) ||
+        !pl_liquid_find_spots(memory, scratch, particles, count) ||
+        !pl_liquid_clear_tiles(memory, scratch) || !find_homes(memory, scratch, count)) {
         return false;
     }
     for (uint32_t t = 0; t < g->tile_count; ++t) {

@@ -9,6 +9,8 @@
 #include <string.h>
 
 #define LEAST_SLOTS 64
+#define RECENT      64 // squares of tiles that are remembered, and how many of these lie in a line
+#define RECENT_LINE 16
 
 static uint64_t key_of(int32_t x, int32_t y)
 {
@@ -72,7 +74,7 @@ static bool cover_spots(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t 
 {
     const uint8_t *strays = scratch->grid.strays;
     const pl_liquid_spot *spots = scratch->spots.data;
-    uint64_t last = 0;
+    uint64_t last[RECENT] = { 0 };
     for (uint32_t k = 0; k < count; ++k) {
         const int32_t i = spots[k].i, j = spots[k].j;
         const int32_t x = pl_liquid_tile_of(i - PL_LIQUID_REACH),
@@ -80,10 +82,11 @@ static bool cover_spots(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t 
         const int32_t right = pl_liquid_tile_of(i + PL_LIQUID_REACH),
                       top = pl_liquid_tile_of(j + PL_LIQUID_REACH);
         const uint64_t seen = key_of(x, y) * 4 + (uint64_t)(2 * (right - x) + (top - y)) + 1;
-        if (seen == last || (strays != NULL && strays[k])) {
+        uint64_t *recent = &last[(x + RECENT_LINE * y) & (RECENT - 1)];
+        if (seen == *recent || (strays != NULL && strays[k])) {
             continue;
         }
-        last = seen;
+        *recent = seen;
         if (!pl_liquid_add_tile(memory, scratch, x, y) ||
             !pl_liquid_add_tile(memory, scratch, right, y) ||
             !pl_liquid_add_tile(memory, scratch, x, top) ||

@@ -52,7 +52,10 @@ static void add_lattice(bench *b, int n, int m, double x, double y)
 
 static void build(bench *b)
 {
-    assert_true(pl_liquid_grid_build(&b->memory, &b->scratch, b->particles, b->count, 1));
+    b->scratch.grid.h = 1;
+    b->scratch.grid.kernels = pl_liquid_kernels_for(4);
+    assert_true(pl_liquid_find_spots(&b->memory, &b->scratch, b->particles, b->count));
+    assert_true(pl_liquid_grid_build(&b->memory, &b->scratch, b->particles, b->count));
 }
 
 // A box as a solid.
@@ -62,7 +65,7 @@ static pl_liquid_solid box(double x0, double y0, double x1, double y1)
     const double x[] = { x0, x1, x1, x0 }, y[] = { y0, y0, y1, y1 };
     memcpy(s.x, x, sizeof x);
     memcpy(s.y, y, sizeof y);
-    s.low_x = x0, s.low_y = y0, s.high_x = x1, s.high_y = y1;
+    pl_liquid_find_reach(&s);
     s.thin = fmin(x1 - x0, y1 - y0) < 1;
     return s;
 }
@@ -232,11 +235,11 @@ static void steep_solids_close_nothing_below_them(void **state)
     open_bench(&b);
     add_lattice(&b, 16, 16, 0, 0);
     build(&b);
-    pl_liquid_solid s = { .body = PL_LIQUID_NONE, .count = 3, .low_x = -2, .low_y = -1 };
+    pl_liquid_solid s = { .body = PL_LIQUID_NONE, .count = 3 };
     const double x[] = { -1, 20, -2 }, y[] = { -1, 4e12, 4e12 };
     memcpy(s.x, x, sizeof x);
     memcpy(s.y, y, sizeof y);
-    s.high_x = 20, s.high_y = 4e12;
+    pl_liquid_find_reach(&s);
     for (int k = 0; k < 2; ++k) {
         s.thin = k > 0;
         put_solids(&b, &s, 1);

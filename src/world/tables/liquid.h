@@ -40,6 +40,7 @@ typedef struct pl_liquid_point {
 #define PL_LIQUID_ZEROED(X)                                                                          \
     X(uint32_t, first) /* of its points */                                                           \
     X(uint32_t, row) /* of the system of pressures; 0: air or solid */                               \
+    X(uint32_t, room) /* that it is in (rooms.c) */                                                  \
     X(near_real, solid_u) X(near_real, solid_v) /* [m/s] closed part times the speed of what closes it */ \
     X(near_real, swell) /* [m/s] what soft bodies in it grow by, which is no flow */                \
     X(near_real, cover) /* 0..1 of it is solid */
@@ -103,6 +104,7 @@ typedef struct pl_liquid_body {
     double inv_inertia;                // [1/(kg m^2)]
     double impulse_x, impulse_y, turn; // [N s], [N m s] since the step began
     double sum[3];                     // of pressures, in one product with the matrix
+    uint32_t first_rim, rim_count;     // rows beside it, in the grid's list (links.c)
     bool moves;                        // its velocity is unknown: else it is driven
     bool wet;                          // some cells beside it were full in this step
 } pl_liquid_body;
@@ -125,6 +127,11 @@ typedef struct pl_liquid_link {
     near_real rest; // 0..1 that something else closes
     near_real arm;  // [m] about the body's centre: a turn of 1 rad/s moves it so fast along the normal
 } pl_liquid_link;
+
+// How a motion of a body fills a cell beside it: by 1 m/s to the right, up, by 1 rad/s; and 0.
+typedef struct pl_liquid_rim {
+    near_real by[4];
+} pl_liquid_rim;
 
 // A node of a soft body that the liquid pushes.
 typedef struct pl_liquid_node {
@@ -191,6 +198,7 @@ typedef struct pl_liquid_solid {
     uint32_t exits;       // bits of sides over which particles in it leave
     double radius;        // cells
     double x[16], y[16];  // cells, at this time of the step
+    double nx[16], ny[16]; // outwards from the side behind each corner; 0: it has no length
     // The same drawn in by a film, but where it lies on its body's other pieces; of bodies that yield.
     double film_radius, film_x[16], film_y[16];
     uint32_t inner; // bits of sides that lie so
@@ -210,6 +218,8 @@ typedef struct pl_liquid_level {
     uint32_t first, end;
 } pl_liquid_level;
 
+typedef struct pl_liquid_kernels pl_liquid_kernels; // liquid/liquid.h
+
 // Scratch: cells, points and rows of one part of a step.
 typedef struct pl_liquid_grid {
     near_real h; // [m] side of a cell
@@ -223,6 +233,7 @@ typedef struct pl_liquid_grid {
     uint32_t *occupied;                   // cells with points
     pl_liquid_block *blocks;              // their sums, behind one of zeros
     struct pl_tasks *tasks;               // NULL: one thread
+    const pl_liquid_kernels *kernels;     // of the world's width
     pl_liquid_strip *strips;              // those of the coarser grids behind; 0 stands for none
     pl_liquid_level levels[PL_LIQUID_LEVELS];
     uint32_t strip_count, level_count;
@@ -231,8 +242,11 @@ typedef struct pl_liquid_grid {
     double *sums;                          // parts of totals
     pl_liquid_body *bodies;
     pl_liquid_link *links;
+    uint32_t *rim_rows; // beside bodies that move, those of one in one range, each once
+    pl_liquid_rim *rim_fills;
     pl_liquid_wrap *wraps;
     uint32_t wrap_count;
+    uint32_t room_count;      // with the outside
     uint32_t room_cell_count; // 0: no room is evened out
     pl_liquid_room_cell *room_cells;
     pl_liquid_room *rooms; // of the last that were found
@@ -266,7 +280,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_grid grid;
     pl_liquid_mixture mixture;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, rims, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches;
 } pl_liquid_scratch;
 
 // Particles by the bins that they lie in, for questions (sample.c): made when the first one is asked after they moved.
