@@ -1,5 +1,5 @@
 // test_liquid_motion.c - the liquid against closed forms and published data: a column at rest, volume after sloshing, a dam break
-// (Martin & Moyce 1952), communicating vessels, turning vortices. What was measured stands in
+// (Martin & Moyce 1952), communicating vessels, a hole in the floor, turning vortices. What was measured stands in
 // src/liquid/DECISIONS.md.
 // PLUMB_LONG
 #include <math.h>
@@ -111,6 +111,72 @@ static void vessels_swing_and_level(void **state)
     plumb_world_destroy(w);
 }
 
+// Through a hole of 0.5 m in the floor of a tank of 4 m, 2 m deep: by Torricelli, what runs out has the head of the surface; by Kirchhoff (1869)
+// a thin edge draws the jet in to pi / (pi + 2) of the hole. The floor is 0.1 m thick.
+typedef struct outflow {
+    double head;  // of a particle under the hole, from its floor, over the depth
+    double share; // what runs out over the hole's width times sqrt(2 g depth)
+} outflow;
+
+static double water_above_floor(const plumb_world *w, double spacing)
+{
+    int n, above = 0;
+    const plumb_particle *p = plumb_liquid_particles(w, &n);
+    for (int i = 0; i < n; ++i) {
+        above += (double)p[i].position.y > 0;
+    }
+    return above * spacing * spacing;
+}
+
+static double mean_head(const plumb_world *w, double from, double to)
+{
+    int n, count = 0;
+    double sum = 0;
+    const plumb_particle *p = plumb_liquid_particles(w, &n);
+    for (int i = 0; i < n; ++i) {
+        const double y = (double)p[i].position.y;
+        if (y > from && y < to) {
+            const double vx = (double)p[i].velocity.x, vy = (double)p[i].velocity.y;
+            sum += y + (vx * vx + vy * vy) / (2 * SIM_G);
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+static outflow run_out(double spacing)
+{
+    const double width = 4, hole = 0.5;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    tank_wall(w, (width - hole) / 4 - 0.5, -0.05, (width - hole) / 4 + 0.5, 0.05);
+    tank_wall(w, width - (width - hole) / 4 + 0.5, -0.05, (width - hole) / 4 + 0.5, 0.05);
+    tank_wall(w, -0.5, 2, 0.5, 2);
+    tank_wall(w, width + 0.5, 2, 0.5, 2);
+    plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = (plumb_real)spacing });
+    tank_fill(w, 0, 0, width, 2);
+    sim_run(w, 60, HZ60); // until it flows evenly
+    const double before = water_above_floor(w, spacing);
+    sim_run(w, 30, HZ60);
+    const double after = water_above_floor(w, spacing), depth = (before + after) / (2 * width);
+    const outflow out = { mean_head(w, -1.5, -0.6) / (after / width),
+                          (before - after) / (0.5 * hole * sqrt(2 * SIM_G * depth)) };
+    print_message(
+        "a hole of %.0f cells: head of the jet over the depth %.3f, width over the hole's %.3f\n",
+        hole / (2 * spacing), out.head, out.share);
+    plumb_world_destroy(w);
+    return out;
+}
+
+static void water_runs_out_as_fast_as_it_would_fall(void **state)
+{
+    (void)state;
+    const outflow coarse = run_out(0.025), fine = run_out(0.0125);
+    const double edge = SIM_PI / (SIM_PI + 2);
+    assert_true(fine.head > 0.95 && fine.head < 1.005);
+    assert_true(1 - fine.head < 0.5 * (1 - coarse.head)); // of first order at least
+    assert_true(fine.share > edge - 0.02 && fine.share - edge < 0.55 * (coarse.share - edge));
+}
+
 // Vortices between slipping walls, without gravity: u = sin x cos y decays as e^(-2 nu k^2 t), and not at all
 // without viscosity.
 static double vortex_energy(double viscosity, double seconds)
@@ -154,8 +220,11 @@ static void vortices_keep_their_energy(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_column_rests_at_its_height), cmocka_unit_test(sloshing_keeps_the_volume),
-        cmocka_unit_test(a_dam_break_runs_as_measured), cmocka_unit_test(vessels_swing_and_level),
+        cmocka_unit_test(a_column_rests_at_its_height),
+        cmocka_unit_test(sloshing_keeps_the_volume),
+        cmocka_unit_test(a_dam_break_runs_as_measured),
+        cmocka_unit_test(vessels_swing_and_level),
+        cmocka_unit_test(water_runs_out_as_fast_as_it_would_fall),
         cmocka_unit_test(vortices_keep_their_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
