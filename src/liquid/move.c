@@ -195,7 +195,7 @@ static int across_of(double at, int32_t tile)
     return cell <= 0 ? 0 : cell >= ACROSS - 1 ? ACROSS - 1 : (int)cell;
 }
 
-static void raise(fence *f, const pl_liquid_grid *g, const pl_liquid_tile *tile)
+static void see_solids(fence *f, const pl_liquid_grid *g, const pl_liquid_tile *tile)
 {
     *f = (fence){ .tile = tile };
     for (uint32_t k = 0; k < tile->solid_count && k < LISTED; ++k) {
@@ -298,7 +298,7 @@ static void move_range(void *context, uint32_t first, uint32_t count)
         pl_liquid_point *p = &g->points[k];
         const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
         if (tile != f.tile) {
-            raise(&f, g, tile);
+            see_solids(&f, g, tile);
         }
         const place from = place_of(g, p);
         place end = end_of(g, p, from, m->way);

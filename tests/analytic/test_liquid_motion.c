@@ -7,6 +7,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -109,6 +111,40 @@ static void vessels_swing_and_level(void **state)
                   period, 100 * (measured / period - 1));
     assert_near(measured / period, 1, 0.08);
     plumb_world_destroy(w);
+}
+
+// A hundred pebbles lie behind the wall of a narrow tank, in the tiles of its water but out of its reach: not a bit of what splashes in
+// it changes.
+static void what_is_out_of_reach_changes_nothing(void **state)
+{
+    (void)state;
+    plumb_particle *kept = NULL;
+    for (int k = 0; k < 2; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        for (int i = 0; i < 100 * k; ++i) { // made before what holds the water
+            tank_wall(w, 0.98 + 0.025 * (i % 10), 0.1 + 0.1 * (i / 10), 0.01, 0.01);
+        }
+        tank_wall(w, 0.3, -0.47, 1.3,
+                  0.5); // off the lines of the grid: else faces alone hold the water
+        tank_wall(w, -0.46, 3, 0.5, 4);
+        tank_wall(w, 0.74, 3, 0.1, 4);
+        assert_int_equal(plumb_liquid_create(w, NULL), PLUMB_OK);
+        tank_fill(w, 0.04, 0.03, 0.64, 0.33);
+        tank_fill(w, 0.1, 0.8, 0.4, 1.2);
+        sim_run(w, 120, HZ60);
+        int n;
+        const plumb_particle *p = plumb_liquid_particles(w, &n);
+        assert_int_equal(n, 120);
+        if (k == 0) {
+            kept = malloc((size_t)n * sizeof *kept);
+            assert_non_null(kept);
+            memcpy(kept, p, (size_t)n * sizeof *kept);
+        } else {
+            assert_memory_equal(kept, p, (size_t)n * sizeof *kept);
+        }
+        plumb_world_destroy(w);
+    }
+    free(kept);
 }
 
 // Through a hole of 0.5 m in the floor of a tank of 4 m, 2 m deep: by Torricelli, what runs out has the head of the surface; by Kirchhoff (1869)
@@ -224,6 +260,7 @@ int main(void)
         cmocka_unit_test(sloshing_keeps_the_volume),
         cmocka_unit_test(a_dam_break_runs_as_measured),
         cmocka_unit_test(vessels_swing_and_level),
+        cmocka_unit_test(what_is_out_of_reach_changes_nothing),
         cmocka_unit_test(water_runs_out_as_fast_as_it_would_fall),
         cmocka_unit_test(vortices_keep_their_energy),
     };
