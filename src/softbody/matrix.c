@@ -65,16 +65,20 @@ static void count_columns(pl_soft_matrix *m)
     m->factors = m->start[m->blocks];
 }
 
-bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs)
+bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs,
+                       int width)
 {
     pl_soft_matrix *m = &step->matrix;
     const pl_keyed *keys = step->keys.data;
-    const size_t words = 6 * (size_t)blocks + 8 + pairs;
+    const size_t words = 7 * (size_t)blocks + 8 + pairs;
     if (!pl_buffer_reserve(memory, &step->index, words * sizeof(uint32_t))) {
         return false;
     }
     uint32_t *at = step->index.data;
     m->blocks = blocks;
+    m->kernel = width == 16  ? pl_soft_squares_w16
+                : width == 8 ? pl_soft_squares_w8
+                             : pl_soft_squares_w4;
     m->size = step->shapes.data;
     m->first = at, at += blocks + 1;
     m->start = at, at += blocks + 1;
@@ -82,6 +86,7 @@ bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, u
     m->fill = at, at += blocks;
     m->mark = at, at += blocks;
     m->stack = at, at += blocks;
+    m->squares = (uint8_t *)at, at += blocks;
     m->column = at;
     m->entries = 0;
     uint32_t next = 0;
@@ -149,7 +154,7 @@ double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column)
     return m->off + 9 * (size_t)low;
 }
 
-//---- numbers: blocks are by rows, 3 numbers a row -------------------------------------------------
+//---- numbers: blocks of the matrix are by rows, 3 numbers a row; those of L as many as they have columns ----
 
 // A pivot as L D L^T, number by number: below its diagonal what L has, on it 1 / D. An inverse by determinants is off by the square
 // of how much stiffer one way is than another, and what pulls two apart was not the same for both (DECISIONS.md).
@@ -159,8 +164,8 @@ static void split(const double *a, int n, double *out)
     if (n == 1) {
         return;
     }
-    out[3] = a[3] * out[0];
-    out[4] = 1 / (a[4] - out[3] * a[3]);
+    out[3] = a[n] * out[0];
+    out[4] = 1 / (a[n + 1] - out[3] * a[n]);
     if (n == 2) {
         return;
     }
@@ -192,20 +197,59 @@ static void divide(const double *f, int n, double *x)
 static void take_product(double *to, const double *a, const double *b, int rows, int columns,
                          int between)
 {
-    if (rows == 2 && columns == 2 && between == 2) {
-        to[0] -= a[0] * b[0] + a[1] * b[1], to[1] -= a[0] * b[3] + a[1] * b[4];
-        to[3] -= a[3] * b[0] + a[4] * b[1], to[4] -= a[3] * b[3] + a[4] * b[4];
-        return;
-    }
     for (int i = 0; i < rows; ++i) {
         for (int j = 0; j < columns; ++j) {
             double sum = 0;
             for (int k = 0; k < between; ++k) {
-                sum += a[3 * i + k] * b[3 * j + k];
+                sum += a[between * i + k] * b[between * j + k];
             }
-            to[3 * i + j] -= sum;
+            to[columns * i + j] -= sum;
         }
     }
+}
+
+static void pack(double *to, const double *from, int rows, int columns)
+{
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            to[columns * i + j] = from[3 * i + j];
+        }
+    }
+}
+
+// What the rest of a row loses by the block y of column i.
+static void take_column(const pl_soft_matrix *m, uint32_t i, int n, const double *y,
+                        const double *column)
+{
+    for (uint32_t p = 0; p < m->fill[i]; ++p) {
+        const uint32_t j = m->row_of[m->start[i] + p];
+        take_product(m->work + 9 * (size_t)j, y, column + 9 * (size_t)p, n, m->size[j], m->size[i]);
+    }
+}
+
+// y becomes a block of L; the pivot of its row loses y L^T.
+static void close_block(const double *f, int columns, int n, const double *y, double *l,
+                        double *pivot)
+{
+    memcpy(l, y, (size_t)(n * columns) * sizeof(double));
+    for (int r = 0; r < n; ++r) {
+        divide(f, columns, l + columns * r);
+    }
+    take_product(pivot, l, y, n, n, columns);
+}
+
+// The same of two by two.
+static inline void close_square(const double *f, const double *y, double *l, double *pivot)
+{
+    for (int r = 0; r < 4; r += 2) {
+        const double second = (y[r + 1] - f[3] * y[r]) * f[4];
+        l[r] = y[r] * f[0] - f[3] * second;
+        l[r + 1] = second;
+    }
+    pivot[0] -= l[0] * y[0] + l[1] * y[1];
+    pivot[1] -= l[0] * y[2] + l[1] * y[3];
+    pivot[2] -= l[2] * y[0] + l[3] * y[1];
+    pivot[3] -= l[2] * y[2] + l[3] * y[3];
 }
 
 // Row k: what A has of it becomes L D of it block by block, and L.
@@ -218,25 +262,23 @@ static void factor_row(pl_soft_matrix *m, uint32_t k)
         memset(m->work + 9 * (size_t)m->stack[at], 0, 9 * sizeof(double));
     }
     for (uint32_t p = m->first[k]; p < m->first[k + 1]; ++p) {
-        memcpy(m->work + 9 * (size_t)m->column[p], m->off + 9 * (size_t)p, 9 * sizeof(double));
+        pack(m->work + 9 * (size_t)m->column[p], m->off + 9 * (size_t)p, n, m->size[m->column[p]]);
     }
-    memcpy(pivot, m->diagonal + 9 * (size_t)k, 9 * sizeof(double));
+    pack(pivot, m->diagonal + 9 * (size_t)k, n, n);
     for (uint32_t at = top; at < m->blocks; ++at) {
-        const uint32_t i = m->stack[at], end = m->start[i] + m->fill[i];
+        const uint32_t i = m->stack[at], start = m->start[i], fill = m->fill[i];
         const double *y = m->work + 9 * (size_t)i;
-        for (uint32_t p = m->start[i]; p < end; ++p) {
-            const uint32_t j = m->row_of[p];
-            take_product(m->work + 9 * (size_t)j, y, m->l + 9 * (size_t)p, n, m->size[j],
-                         m->size[i]);
+        double *column = m->l + 9 * (size_t)start, *l = column + 9 * (size_t)fill;
+        if (n == 2 && m->squares[i]) {
+            m->kernel(m->work, y, column, m->row_of + start, fill);
+            close_square(m->split + 9 * (size_t)i, y, l, pivot);
+        } else {
+            take_column(m, i, n, y, column);
+            close_block(m->split + 9 * (size_t)i, m->size[i], n, y, l, pivot);
         }
-        double *l = m->l + 9 * (size_t)end;
-        memcpy(l, y, 9 * sizeof(double));
-        for (int r = 0; r < n; ++r) {
-            divide(m->split + 9 * (size_t)i, m->size[i], l + 3 * (size_t)r);
-        }
-        take_product(pivot, l, y, n, n, m->size[i]);
-        m->row_of[end] = k;
+        m->row_of[start + fill] = k;
         ++m->fill[i];
+        m->squares[i] = m->squares[i] && n == 2;
     }
     split(pivot, n, m->split + 9 * (size_t)k);
 }
@@ -246,39 +288,74 @@ void pl_soft_factor(pl_soft_matrix *m, uint32_t first, uint32_t end)
     memset(m->fill + first, 0, (end - first) * sizeof *m->fill);
     memset(m->mark + first, 0xff, (end - first) * sizeof *m->mark);
     for (uint32_t k = first; k < end; ++k) {
+        m->squares[k] = m->size[k] == 2;
+    }
+    for (uint32_t k = first; k < end; ++k) {
         factor_row(m, k);
     }
+}
+
+// x of the rows of a column lose L x of it; its own x loses what these make of L^T.
+static void push_column(const pl_soft_matrix *m, uint32_t i, double *x)
+{
+    const double *from = x + 3 * (size_t)i;
+    const int columns = m->size[i];
+    for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
+        const double *l = m->l + 9 * (size_t)p;
+        double *to = x + 3 * (size_t)m->row_of[p];
+        for (int r = 0; r < m->size[m->row_of[p]]; ++r) {
+            for (int c = 0; c < columns; ++c) {
+                to[r] -= l[columns * r + c] * from[c];
+            }
+        }
+    }
+}
+
+static void pull_column(const pl_soft_matrix *m, uint32_t i, const double *x, double *sum)
+{
+    const int columns = m->size[i];
+    for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
+        const double *l = m->l + 9 * (size_t)p, *from = x + 3 * (size_t)m->row_of[p];
+        for (int r = 0; r < m->size[m->row_of[p]]; ++r) {
+            for (int c = 0; c < columns; ++c) {
+                sum[c] -= l[columns * r + c] * from[r];
+            }
+        }
+    }
+}
+
+static void push_squares(const pl_soft_matrix *m, uint32_t i, double *x)
+{
+    const double a = x[3 * (size_t)i], b = x[3 * (size_t)i + 1];
+    for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
+        const double *l = m->l + 9 * (size_t)p;
+        double *to = x + 3 * (size_t)m->row_of[p];
+        to[0] = to[0] - l[0] * a - l[1] * b;
+        to[1] = to[1] - l[2] * a - l[3] * b;
+    }
+}
+
+static void pull_squares(const pl_soft_matrix *m, uint32_t i, const double *x, double *sum)
+{
+    double a = sum[0], b = sum[1];
+    for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
+        const double *l = m->l + 9 * (size_t)p, *from = x + 3 * (size_t)m->row_of[p];
+        a = a - l[0] * from[0] - l[2] * from[1];
+        b = b - l[1] * from[0] - l[3] * from[1];
+    }
+    sum[0] = a, sum[1] = b;
 }
 
 void pl_soft_solve(const pl_soft_matrix *m, uint32_t first, uint32_t end)
 {
     double *x = m->right;
     for (uint32_t i = first; i < end; ++i) {
-        const double *from = x + 3 * (size_t)i;
-        for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
-            const double *l = m->l + 9 * (size_t)p;
-            double *to = x + 3 * (size_t)m->row_of[p];
-            for (int r = 0; r < m->size[m->row_of[p]]; ++r) {
-                for (int c = 0; c < m->size[i]; ++c) {
-                    to[r] -= l[3 * r + c] * from[c];
-                }
-            }
-        }
+        (m->squares[i] ? push_squares : push_column)(m, i, x);
     }
     for (uint32_t i = end; i-- > first;) {
         double *to = x + 3 * (size_t)i, sum[3] = { to[0], to[1], to[2] };
-        const int n = m->size[i];
-        divide(m->split + 9 * (size_t)i, n, sum);
-        for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
-            const double *l = m->l + 9 * (size_t)p, *from = x + 3 * (size_t)m->row_of[p];
-            for (int r = 0; r < m->size[m->row_of[p]]; ++r) {
-                for (int c = 0; c < n; ++c) {
-                    sum[c] -= l[3 * r + c] * from[r];
-                }
-            }
-        }
-        for (int r = 0; r < n; ++r) {
-            to[r] = sum[r];
-        }
+        divide(m->split + 9 * (size_t)i, m->size[i], sum);
+        (m->squares[i] ? pull_squares : pull_column)(m, i, x, sum);
+        memcpy(to, sum, (size_t)m->size[i] * sizeof(double));
     }
 }

@@ -326,5 +326,6 @@ bool pl_softbodies_plan(plumb_world *world)
     weigh_groups(all);
     const uint32_t blocks = place_components(s, leaders, group, place);
     rename_unknowns(s, place, unknowns);
-    return pl_soft_structure(&world->memory, s, blocks, s->elimination.pair_count);
+    return pl_soft_structure(&world->memory, s, blocks, s->elimination.pair_count,
+                             world->desc.simd_width);
 }

@@ -94,11 +94,14 @@ double pl_soft_add_pushes(const pl_soft_step *s, const pl_soft_group *g, double 
 
 void pl_soft_newton(plumb_world *world, double h, int passes); // [s]; at most so many a round
 
-//---- matrix.c ------------------------------------------------------------------------------------
+//---- matrix.c, squares.simd.c --------------------------------------------------------------------
 
-// The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted); sizes stand in step->shapes. False when out of
-// memory.
-bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs);
+pl_soft_kernel pl_soft_squares_w4, pl_soft_squares_w8, pl_soft_squares_w16;
+
+// The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted); sizes stand in step->shapes. `width`: the world's
+// simd_width. False when out of memory.
+bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs,
+                       int width);
 // What follows is about blocks [first, end): those of a group, or all.
 void pl_soft_clear(pl_soft_matrix *m, uint32_t first, uint32_t end);
 void pl_soft_clear_right(pl_soft_matrix *m, uint32_t first, uint32_t end); // its right side alone

@@ -102,12 +102,18 @@ typedef struct pl_soft_pull {
 } pl_soft_pull;
 
 // Unknowns in blocks of up to 3, the symmetric matrix by rows: lower neighbours and diagonal; factors L D L^T.
+// Blocks of two by two, `count` of a column of L, in `rows`: work -= y l^T, 9 numbers a block (softbody/squares.simd.c).
+typedef void pl_soft_kernel(double *work, const double *y, const double *l, const uint32_t *rows,
+                            uint32_t count);
+
 typedef struct pl_soft_matrix {
     uint32_t blocks, entries, factors;
     uint32_t *first, *column; // entries of a row of blocks, by rising column
     uint32_t *parent, *start, *fill, *row_of; // elimination tree; columns of L
     uint32_t *mark, *stack;
     uint8_t *size;           // unknowns of a block
+    uint8_t *squares;        // whether a column of L has blocks of two by two alone
+    pl_soft_kernel *kernel;  // of the world's width
     double *diagonal, *off;  // 9 a block
     double *pivot, *split, *l, *work;
     double *right, *u, *tried, *slope, *way; // 3 a block
