@@ -30,6 +30,25 @@ bytes()
     size "$at/$1/libplumb.so" | awk 'NR == 2 { print $1 + $2 }'
 }
 
+# An effect and those that it needs, a line each.
+needs=$(tr -d '\\\n' <src/schema/effects.h | sed 's/"  *"//g; s/ X(/\n/g' |
+    sed -n 's/^[A-Z_]*, *"\([a-z_]*\)", *"\([^"]*\)".*/\1 \2/p')
+
+# without EFFECT: all, but for it and for who needs it
+without()
+{
+    local out=" $1 " before= name of n
+    while [ "$out" != "$before" ]; do
+        before=$out
+        while read -r name of; do
+            for n in $of; do
+                [[ $out == *" $n "* && $out != *" $name "* ]] && out="$out$name "
+            done
+        done <<<"$needs"
+    done
+    for n in $out; do printf ' -%s' "$n"; done | sed 's/^/all/'
+}
+
 build all all
 build none none
 effects=${ONLY:-$(sed -n 's/^ *X([A-Z_]*, "\([a-z_]*\)".*/\1/p' src/schema/effects.h)}
@@ -39,15 +58,7 @@ failures=0
 echo "effect,bytes_without,bytes_of_it,instructions_unused,instructions_without,percent,instructions_used" >"$O/effects.csv"
 printf '%-12s %10s %10s %14s %14s %8s %14s\n' effect "B without" "B of it" "a step unused" "compiled out" "%" "a step used"
 for effect in $effects; do
-    without="all -$effect"
-    case $effect in # who needs it goes along
-    sensors) without="$without -fluids -waves" ;;
-    fluids) without="$without -waves" ;;
-    liquid) without="$without -air" ;;
-    joints | pgs) without="$without -exact -tolerance" ;;
-    exact) without="$without -tolerance" ;;
-    esac
-    build "$effect" "$without"
+    build "$effect" "$(without "$effect")"
     # Gravity is what the pile has: the one without lies in none.
     pile=none
     [ "$effect" = gravity ] && pile=nothing
