@@ -17,17 +17,18 @@ pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_ta
                                      uint32_t thread, real h, real soft)
 {
     const pl_joint_plan *plan = &world->joints.plan;
-    const bool any = world->joints.live > 0 && cluster < plan->group_count;
+    if (world->joints.live == 0 || cluster >= plan->group_count) {
+        return (pl_joint_context){ .world = world };
+    }
     return (pl_joint_context){ .world = world,
-                               .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
+                               .group = &pl_joint_groups(&world->joints)[cluster],
                                .tasks = tasks,
                                // None while no joint has been solved in lanes.
-                               .records =
-                                   any && plan->room > 0
-                                       ? (unsigned char *)plan->records.data + thread * plan->room
-                                       : NULL,
+                               .records = plan->room > 0 ? (unsigned char *)plan->records.data +
+                                                               thread * plan->room
+                                                         : NULL,
                                .h = h,
-                               .exact = any && cluster == plan->exact_group,
+                               .exact = cluster == plan->exact_group,
                                .rigid = pl_joint_rigid(h, soft) };
 }
 

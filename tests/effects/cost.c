@@ -101,6 +101,7 @@ static plumb_world *make(void)
     plumb_world_desc desc = { .simd_width = 8,
                               .no_sleep = true,
                               .no_continuous = !is("continuous"),
+                              .no_exact_islands = true,
                               .zero_gravity = is("nothing"),
                               .measure = is("measures"),
                               .watchdog = is("watchdog"),
