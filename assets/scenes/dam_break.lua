@@ -5,7 +5,7 @@ camera { fit = { {-0.6, -0.6}, {10.6, 4.4} }, at = 1.2 }
 local wood = material { density = 300, friction = 0.4 }
 local rock = material { density = 2500, friction = 0.5 }
 body { type = "static", name = "floor", box { 10.8, 0.4, at = { 5, -0.2 } }, material = rock }
-body { type = "static", box { 0.4, 5, at = { -0.2, 2.1 } }, box { 0.4, 5, at = { 10.2, 2.1 } }, material = rock }
+body { type = "static", box { 0.4, 10, at = { -0.2, 4.6 } }, box { 0.4, 10, at = { 10.2, 4.6 } }, material = rock } -- a drop may fly 7 m high
 
 local crates = {}
 for i = 0, 2 do
