@@ -101,11 +101,11 @@ typedef struct pl_soft_pull {
     double tension, strain; // [N], [-]
 } pl_soft_pull;
 
-// Unknowns in blocks of up to 3, the symmetric matrix by rows: lower neighbours and diagonal; factors L D L^T.
 // Blocks of two by two, `count` of a column of L, in `rows`: work -= y l^T, 9 numbers a block (softbody/squares.simd.c).
 typedef void pl_soft_kernel(double *work, const double *y, const double *l, const uint32_t *rows,
                             uint32_t count);
 
+// Unknowns in blocks of up to 3, the symmetric matrix by rows: lower neighbours and diagonal; factors L D L^T.
 typedef struct pl_soft_matrix {
     uint32_t blocks, entries, factors;
     uint32_t *first, *column; // entries of a row of blocks, by rising column
