@@ -21,6 +21,8 @@
 ///     plumb_liquid_set_phases(world, &(plumb_liquid_phase){ .density = 800, .viscosity = 0.1f }, 1);
 ///     plumb_liquid_add_box(world, (plumb_vec2){ 0, 1 }, (plumb_vec2){ 2, 1.5f }, &(plumb_particle){ .phase = 1 });
 ///
+/// A liquid, or a phase, with `friction` is granular: sand that rests in heaps, bears what lies on it, and runs out of a hole evenly.
+///
 /// Where phases of different density share a cell they part: a particle is a drop of its size, which rises or sinks at
 /// its terminal velocity. All have one velocity at a place, so two that stream past one another rub within a cell or two.
 ///
@@ -47,6 +49,9 @@ typedef struct plumb_liquid_desc {
     /// are five cells (ten spacings) and more. A step is cut into parts below sqrt(density (2 spacing)^3 / (2 pi tension)), at
     /// most eight; more acts as what these can follow
     plumb_real tension;
+    /// [-] 0..10 of grains on grains, the tangent of the steepest slope at which they rest: sand 0.6. 0: a liquid. Grains
+    /// bear a shear stress of at most friction times the pressure between them, and cling to walls and bodies as far
+    plumb_real friction;
 } plumb_liquid_desc;
 
 /// Most phases beside the first.
@@ -56,6 +61,7 @@ typedef struct plumb_liquid_desc {
 typedef struct plumb_liquid_phase {
     plumb_real density;   ///< [kg/m^2] a thousandth to a thousand times the first's; 0 means 1000
     plumb_real viscosity; ///< [Pa s] 0..1e9, as of plumb_liquid_desc
+    plumb_real friction;  ///< [-] 0..10, as of plumb_liquid_desc: sand under water, 0.6
 } plumb_liquid_phase;
 
 /// A particle: spacing^2 of area. {0} is water at rest.

@@ -29,7 +29,8 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
         PL_TRY(pl_check_range(world, fn, "density", d->density, DENSITY_LEAST, MOST));
     }
     PL_TRY(pl_check_range(world, fn, "viscosity", d->viscosity, 0, PL_LIQUID_MOST_VISCOSITY));
-    return pl_check_range(world, fn, "tension", d->tension, 0, PL_LIQUID_MOST_TENSION);
+    PL_TRY(pl_check_range(world, fn, "tension", d->tension, 0, PL_LIQUID_MOST_TENSION));
+    return pl_check_range(world, fn, "friction", d->friction, 0, PL_LIQUID_MOST_FRICTION);
 }
 
 static real density_of(real said)
@@ -62,6 +63,7 @@ static plumb_result check_phase(const plumb_world *world, const char *fn,
             pl_check_range(world, fn, "density", phase->density, 0, MOST * (real)PL_LIQUID_RATIO));
     }
     PL_TRY(pl_check_range(world, fn, "viscosity", phase->viscosity, 0, PL_LIQUID_MOST_VISCOSITY));
+    PL_TRY(pl_check_range(world, fn, "friction", phase->friction, 0, PL_LIQUID_MOST_FRICTION));
     return check_ratio(world, fn, density_of(phase->density),
                        pl_liquid_desc(&world->liquid)->density);
 }
@@ -71,13 +73,15 @@ bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
     return d->spacing >= SPACING_LEAST && d->spacing <= SPACING_MOST &&
            d->density >= DENSITY_LEAST && d->density <= MOST && d->viscosity >= 0 &&
            d->viscosity <= PL_LIQUID_MOST_VISCOSITY && d->tension >= 0 &&
-           d->tension <= PL_LIQUID_MOST_TENSION;
+           d->tension <= PL_LIQUID_MOST_TENSION && d->friction >= 0 &&
+           d->friction <= PL_LIQUID_MOST_FRICTION;
 }
 
 bool pl_liquid_phase_is_sound(const plumb_liquid_phase *phase, plumb_real first_density)
 {
     return are_near(phase->density, first_density) && phase->viscosity >= 0 &&
-           phase->viscosity <= PL_LIQUID_MOST_VISCOSITY;
+           phase->viscosity <= PL_LIQUID_MOST_VISCOSITY && phase->friction >= 0 &&
+           phase->friction <= PL_LIQUID_MOST_FRICTION;
 }
 
 bool pl_liquid_particle_is_sound(const plumb_particle *p, uint32_t phases)
@@ -108,6 +112,7 @@ static void put_desc(pl_liquid *liquid, const plumb_liquid_desc *d)
     to->density = density_of(d->density);
     to->viscosity = d->viscosity;
     to->tension = d->tension;
+    to->friction = d->friction;
 }
 
 plumb_result plumb_liquid_create(plumb_world *world, const plumb_liquid_desc *desc)
@@ -209,7 +214,9 @@ plumb_result plumb_liquid_set_phases(plumb_world *world, const plumb_liquid_phas
     }
     for (int i = 0; i < count; ++i) {
         pl_liquid_phases(liquid)[i] =
-            (plumb_liquid_phase){ density_of(phases[i].density), phases[i].viscosity };
+            (plumb_liquid_phase){ .density = density_of(phases[i].density),
+                                  .viscosity = phases[i].viscosity,
+                                  .friction = phases[i].friction };
     }
     liquid->phase_count = (uint32_t)count;
     return PLUMB_OK;
@@ -472,13 +479,18 @@ int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
     }
     pl_liquid *liquid = &world->liquid;
     plumb_particle *items = pl_liquid_items(liquid);
-    uint32_t kept = 0;
+    pl_liquid_shear *shears = liquid->shears.data;
+    uint32_t kept = 0, bearing = 0;
     for (uint32_t i = 0; i < liquid->count; ++i) {
         if (!is_in(items[i].position, low, high)) {
+            if (i < liquid->shear_count) {
+                shears[bearing++] = shears[i];
+            }
             items[kept++] = items[i];
         }
     }
     const uint32_t removed = liquid->count - kept;
+    liquid->shear_count = bearing;
     liquid->count = kept;
     liquid->index.fresh &= removed == 0;
     world->schedule_dirty |= kept == 0 && removed > 0;

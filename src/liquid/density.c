@@ -11,8 +11,10 @@
 
 #define MOST_EXCESS ((near_real)0.5)
 #define MOST_WAY    ((near_real)0.5) // cells
-#define SOLVE_TO    1e-2
-#define EVEN        1e-4 // excess that is left alone
+#define LOOSE                                                                                      \
+    ((near_real)0.05) // by which grains may lie looser or closer: a heap whose particles go on to be moved creeps
+#define SOLVE_TO 1e-2
+#define EVEN     1e-4 // excess that is left alone
 
 static near_real excess(const pl_liquid_grid *g, uint32_t c)
 {
@@ -20,6 +22,10 @@ static near_real excess(const pl_liquid_grid *g, uint32_t c)
     near_real open[4];
     pl_liquid_faces_of(g, c, open);
     near_real e = g->density[c] - 1;
+    if (g->grains != NULL) {
+        const near_real slack = g->grains->share[c] * LOOSE;
+        e = e > slack ? e - slack : e < -slack ? e + slack : 0;
+    }
     e = e > MOST_EXCESS ? MOST_EXCESS : e < -MOST_EXCESS ? -MOST_EXCESS : e;
     for (int k = 0; k < 4 && e < 0; ++k) {
         e = g->row[near[k]] == 0 && open[k] > 0 ? 0 : e;

@@ -118,7 +118,7 @@ static double speed_of(const pl_liquid_link *link, const double motion[3])
     return motion[link->upright ? 1 : 0] + motion[2] * (double)link->arm;
 }
 
-static void push_body(pl_liquid_body *b, double x, double y, double turn)
+void pl_liquid_push_body(pl_liquid_body *b, double x, double y, double turn)
 {
     b->impulse_x += x;
     b->impulse_y += y;
@@ -133,7 +133,7 @@ void pl_liquid_push_bodies(pl_liquid_grid *g, double push)
     g->kernels->sum_rims(g, g->vectors[PL_LIQUID_P]);
     for (uint32_t i = 0; i < g->body_count; ++i) {
         const double *sum = g->bodies[i].sum;
-        push_body(&g->bodies[i], push * sum[0], push * sum[1], push * sum[2]);
+        pl_liquid_push_body(&g->bodies[i], push * sum[0], push * sum[1], push * sum[2]);
     }
     pl_liquid_push_nodes(g, push);
 }
@@ -148,8 +148,8 @@ void pl_liquid_bear_rests(pl_liquid_grid *g, double push, double fall_x, double 
             const double light = (double)pl_liquid_light_at(g, link->cell, link->upright);
             const double lift =
                 -push * (double)link->rest * (link->upright ? fall_y : fall_x) / light;
-            push_body(&g->bodies[link->body], link->upright ? 0 : lift, link->upright ? lift : 0,
-                      lift * (double)link->arm);
+            pl_liquid_push_body(&g->bodies[link->body], link->upright ? 0 : lift,
+                                link->upright ? lift : 0, lift * (double)link->arm);
         }
     }
     pl_liquid_bear_nodes(g, push, fall_x, fall_y);

@@ -130,6 +130,43 @@ void pl_liquid_keep_momentum(pl_liquid_grid *grid, pl_liquid_scratch *scratch, d
 
 // What viscosity does to faces; amount: kinematic viscosity times the step, in squares of a cell. False when out of memory.
 bool pl_liquid_diffuse(pl_memory *memory, pl_liquid_scratch *scratch, double amount);
+// What grains bear acts on faces and bodies, before pressures are found. False when out of memory.
+bool pl_liquid_push_shear(pl_memory *memory, pl_liquid_scratch *scratch);
+// What they would bear more by the velocities that end the part. False when out of memory.
+bool pl_liquid_strain(pl_memory *memory, pl_liquid_scratch *scratch);
+
+//---- grains.c ------------------------------------------------------------------------------------
+
+// [-] shear modulus dt^2 / (density h^2): elastic waves cross its root of cells in a part.
+#define PL_LIQUID_STIFF         50
+#define PL_LIQUID_MOST_FRICTION ((plumb_real)10)
+
+// [-] of a phase's grains; 0: a liquid's.
+static inline double pl_liquid_friction(const pl_liquid_grid *grid, uint32_t phase)
+{
+    return grid->grains != NULL ? grid->grains->friction[phase] : 0;
+}
+
+// [m/s] what presses grains of a cell together.
+static inline double pl_liquid_bearing(const pl_liquid_grains *grains, uint32_t cell)
+{
+    const double pressure = (double)grains->pressure[cell];
+    return grains->least + (pressure > 0 ? pressure : 0);
+}
+
+// Whether the liquid, or a phase of it, is granular.
+bool pl_liquid_is_granular(const pl_liquid *liquid);
+// The grid's `grains`, or none. False when out of memory.
+bool pl_liquid_find_grains(pl_memory *memory, pl_liquid *liquid);
+// The step is over: what they bear now is the liquid's.
+void pl_liquid_keep_grains(pl_liquid *liquid);
+// What they bear in cells of the grid. unit: [Pa] of 1 m/s; fall: [m/s] by gravity in a part. False when out of memory.
+bool pl_liquid_gather_grains(pl_memory *memory, pl_liquid_scratch *scratch, double unit,
+                             double fall);
+// Adds the last pressures to theirs.
+void pl_liquid_press_grains(pl_liquid_grid *grid);
+// What each bears as the part ends. way: [cells per m/s].
+void pl_liquid_bear_shear(pl_liquid_grid *grid, double way);
 
 //---- multigrid.c ---------------------------------------------------------------------------------
 
@@ -227,6 +264,8 @@ static inline void pl_liquid_add_speed(pl_liquid_grid *grid, uint32_t cell, bool
 // Adds what bodies make of pressures p to out, a product with the matrix; the answer is what this adds to p . A p. `push`: [kg] density times
 // the square of a cell's side.
 double pl_liquid_add_links(pl_liquid_grid *grid, const near_real *p, near_real *out, double push);
+// [N s], [N m s]
+void pl_liquid_push_body(pl_liquid_body *body, double x, double y, double turn);
 // The pressures of the answer push bodies.
 void pl_liquid_push_bodies(pl_liquid_grid *grid, double push);
 // What of a body has no pressures on both sides, as it lies on the ground, is borne as by water at rest. fall_x, fall_y: [m/s] by

@@ -41,7 +41,8 @@ static bool is_mixed(const pl_liquid *liquid)
     for (uint32_t i = 0; liquid->phase_count > 0 && i < liquid->count; ++i) {
         if (p[i].phase > 0) {
             const plumb_liquid_phase *phase = &pl_liquid_phases(liquid)[p[i].phase - 1];
-            if (phase->density != d->density || phase->viscosity != d->viscosity) {
+            if (phase->density != d->density || phase->viscosity != d->viscosity ||
+                phase->friction != d->friction) {
                 return true;
             }
         }

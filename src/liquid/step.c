@@ -65,6 +65,41 @@ static near_real kick_of(real gravity, real dt)
     return (near_real)pl_liquid_held((double)gravity * (double)dt, PL_LIQUID_SPEED);
 }
 
+// What grains bear pushes faces and bodies, before gravity does.
+static bool bear(plumb_world *world, real dt)
+{
+    pl_liquid_scratch *scratch = world->liquid.scratch;
+    const plumb_liquid_desc *d = pl_liquid_desc(&world->liquid);
+    const double x = (double)world->gravity.x, y = (double)world->gravity.y;
+    const double unit = (double)d->density * (double)scratch->grid.h / (double)dt;
+    return scratch->grid.grains == NULL ||
+           (pl_liquid_gather_grains(&world->memory, scratch, unit,
+                                    sqrt(x * x + y * y) * (double)dt) &&
+            pl_liquid_push_shear(&world->memory, scratch));
+}
+
+// Viscosity, and grains that rub. Gravity is balanced before: else walls would hold back what only gravity moves, and a tank at rest
+// would stir itself.
+static bool rub(pl_memory *memory, pl_liquid_scratch *scratch, double amount)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (amount == 0 && g->grains == NULL) {
+        return true;
+    }
+    if (!pl_liquid_project(memory, scratch, g->drag)) {
+        return false;
+    }
+    if (g->grains != NULL) {
+        pl_liquid_press_grains(g);
+    }
+    pl_liquid_follow_bodies(g);
+    if (!pl_liquid_diffuse(memory, scratch, amount)) {
+        return false;
+    }
+    pl_liquid_follow_bodies(g);
+    return true;
+}
+
 // Part i of a step, of all particles in `moved`.
 static bool run_part(plumb_world *world, real dt, int i, int parts)
 {
@@ -88,34 +123,35 @@ static bool run_part(plumb_world *world, real dt, int i, int parts)
     }
     pl_liquid_pull_nodes(g, 1.0 / parts);
     pl_liquid_extrapolate(g, g->u, g->v, 2);
+    const double push = (double)d->density * h * h;
+    g->drag = push;
+    if (!bear(world, dt)) {
+        return false;
+    }
     pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
     if (d->tension > 0 && !pl_liquid_tighten(memory, scratch, pull_of(d, (double)dt))) {
         return false;
     }
-    const double push = (double)d->density * h * h;
     pl_liquid_bear_rests(g, push, (double)world->gravity.x * (double)dt,
                          (double)world->gravity.y * (double)dt);
     const double amount =
         pl_liquid_thickest(&world->liquid) / (double)d->density * (double)dt / (h * h);
-    if (amount > 0) {
-        // Else walls would hold back what only gravity moves, and a tank at rest would stir itself.
-        if (!pl_liquid_project(memory, scratch, push)) {
-            return false;
-        }
-        pl_liquid_follow_bodies(g);
-        if (!pl_liquid_diffuse(memory, scratch, amount)) {
-            return false;
-        }
-        pl_liquid_follow_bodies(g);
-    }
-    if (!pl_liquid_project(memory, scratch, push)) {
+    if (!rub(memory, scratch, amount) || !pl_liquid_project(memory, scratch, push)) {
         return false;
     }
-    if (d->tension > 0) {
+    if (d->tension > 0 || g->grains != NULL) {
         pl_liquid_forget_far(g);
     }
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_bound(g);
+    if (g->grains != NULL) {
+        pl_liquid_press_grains(g);
+        pl_liquid_follow_bodies(g);
+        if (!pl_liquid_strain(memory, scratch)) {
+            return false;
+        }
+        pl_liquid_bear_shear(g, (double)dt / h);
+    }
     if (!pl_liquid_even_out(memory, scratch)) {
         return false;
     }
@@ -167,6 +203,9 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
     pl_liquid_find_mixture(liquid, world->gravity);
+    if (!pl_liquid_find_grains(&world->memory, liquid)) {
+        return PLUMB_E_MEMORY;
+    }
     pl_liquid_place_solids(world, scratch, 0);
     if (!pl_liquid_find_strays(&world->memory, scratch, scratch->moved.data, liquid->count)) {
         return PLUMB_E_MEMORY;
@@ -191,6 +230,7 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
     if (liquid->count > 0) {
         memcpy(liquid->particles.data, liquid->scratch->moved.data,
                liquid->count * sizeof(plumb_particle));
+        pl_liquid_keep_grains(liquid);
     }
     liquid->scratch->push_count = 0;
     liquid->index.fresh = false;

@@ -109,9 +109,12 @@ static void fly(const flight *f, plumb_particle *p)
     vy = held(vy + f->dt * ay);
     pl_liquid_place n;
     to = pl_liquid_slide_all(g, from, to, &n);
-    const double into = vx * n.x + vy * n.y;
-    vx -= into < 0 ? into * n.x : 0;
-    vy -= into < 0 ? into * n.y : 0;
+    const double into = vx * n.x + vy * n.y, along = vy * n.x - vx * n.y;
+    if (into < 0) {
+        const double held = pl_liquid_held(along, -into * pl_liquid_friction(g, p->phase));
+        vx -= into * n.x - held * n.y;
+        vy -= into * n.y + held * n.x;
+    }
     *p = (plumb_particle){ .position = { pl_held(to.x * h), pl_held(to.y * h) },
                            .velocity = { (plumb_real)vx, (plumb_real)vy },
                            .phase = p->phase,

@@ -12,359 +12,277 @@
 // symmetric: conjugate gradients with its diagonal, which lose energy in each iteration: cut short it is stable all the
 // same.
 //
-// Where the grid says so (`drag`), velocities of moving bodies are unknown too: three columns a body, which its links
-// add to the faces that it closes, as in pressure.c. What walls take from the flow is then what bodies get.
+// Where the grid says so (`drag`), velocities of moving bodies are unknown too (dragged.c). Grains are a viscosity that depends on
+// the answer, with a stress beside (yield.c): the system is solved some times.
 //
 // Reads: openness, rows, speeds of what closes. Writes: velocities of faces. Cost: O(cells with liquid x iterations),
 // and iterations grow as the square root of k.
-#include "liquid/liquid.h"
+#include "liquid/viscous.h"
 
 #include <string.h>
 
 #define MOST_ITERATIONS 200
 #define SOLVE_TO        1e-4
+#define MOST_YIELDS     4    // solutions with grains
+#define SETTLED         1e-2 // of what yields, then no more
 #define QUARTER         ((near_real)0.25)
-
-// Columns of cells, 0 where nothing flows.
-enum {
-    U, // the velocities; of faces that are closed those of the solids
-    V,
-    FREE_U, // 1: unknown
-    FREE_V,
-    MASS_U,
-    MASS_V,
-    WEIGHT,  // of a cell
-    CORNER,  // of the one at the lower left
-    TWICE_U, // 2: the slope to the face below ends at a wall, half a cell away
-    TWICE_V,
-    LEFT_U, // what is left
-    LEFT_V,
-    WAY_U, // where conjugate gradients go
-    WAY_V,
-    OUT_U, // the matrix times that
-    OUT_V,
-    DIAGONAL_U,
-    DIAGONAL_V,
-    XX, // stresses
-    YY,
-    XY,
-    COLUMNS
-};
-
-// A body's part of the vectors; those of faces and of bodies have one mass, density h^2.
-typedef struct dragged {
-    double mass[3];     // over density h^2; 0: this axis does not move
-    double diagonal[3]; // likewise
-    double now[3], left[3], way[3], out[3];
-} dragged;
-
-typedef struct equations {
-    pl_liquid_grid *g;
-    near_real k;
-    near_real *col[COLUMNS];
-    uint32_t *cells; // in which something is not 0
-    uint32_t count;
-    dragged *bodies; // NULL: all are driven
-} equations;
+#define HALF            ((near_real)0.5)
+#define LEAST_MASS      ((near_real)0.25) // less, and light bodies shake
+#define MOSTLY          ((near_real)0.9)  // of a face
+#define LEAST_ROOM      ((near_real)0.1)
 
 //---- what is unknown -----------------------------------------------------------------------------
 
-static void find_faces(equations *s)
+// 0..1, how much of a cell is liquid.
+static near_real fill_of(const pl_liquid_grid *g, uint32_t c)
+{
+    const near_real room = 1 - g->solid[c];
+    const near_real full = room > LEAST_ROOM ? (g->density[c] - g->solid[c]) / room : 0;
+    return (full < 1 ? full : 1) * (1 - g->cover[c]);
+}
+
+// Of a face between two cells over that of one in the midst of the liquid.
+static near_real mass_of(const pl_liquid_grid *g, uint32_t a, uint32_t b)
+{
+    const near_real fill = HALF * (fill_of(g, a) + fill_of(g, b));
+    return fill > LEAST_MASS ? fill : LEAST_MASS;
+}
+
+// Of what bodies close by whole areas most counts as closed: they leave films open, which are no boundary (films.c).
+static near_real shut_of(const pl_liquid_grid *g, near_real open, near_real closed)
+{
+    return open == 0 ? 1 : g->films && closed > MOSTLY ? closed : 0;
+}
+
+static void find_shut(pl_viscous *s)
 {
     const pl_liquid_grid *g = s->g;
+    if (g->films) {
+        pl_viscous_add_closed(s);
+    }
+    for (uint32_t c = 0; c < g->cell_count; ++c) {
+        s->shut.u[c] = shut_of(g, g->open_u[c], s->shut.u[c]);
+        s->shut.v[c] = shut_of(g, g->open_v[c], s->shut.v[c]);
+    }
+}
+
+static void find_faces(pl_viscous *s)
+{
+    const pl_liquid_grid *g = s->g;
+    const near_real *shut_u = s->shut.u, *shut_v = s->shut.v;
     for (uint32_t c = 1; c < g->cell_count; ++c) {
         const bool wet = g->row[c] != 0;
         const bool u = wet || g->row[g->left[c]] != 0, v = wet || g->row[g->down[c]] != 0;
-        s->col[FREE_U][c] = u && g->open_u[c] > 0;
-        s->col[FREE_V][c] = v && g->open_v[c] > 0;
-        s->col[U][c] = g->open_u[c] > 0 ? g->u[c] : g->solid_u[c];
-        s->col[V][c] = g->open_v[c] > 0 ? g->v[c] : g->solid_v[c];
-        s->col[MASS_U][c] = 1 / pl_liquid_light_u(g, c);
-        s->col[MASS_V][c] = 1 / pl_liquid_light_v(g, c);
-        s->col[WEIGHT][c] = !wet ? 0 : g->mixture != NULL ? g->mixture->thick[c] : 1;
+        s->is_free.u[c] = u && shut_u[c] == 0;
+        s->is_free.v[c] = v && shut_v[c] == 0;
+        s->speed.u[c] = shut_u[c] == 0 ? g->u[c] : g->solid_u[c] / shut_u[c];
+        s->speed.v[c] = shut_v[c] == 0 ? g->v[c] : g->solid_v[c] / shut_v[c];
+        s->mass.u[c] = mass_of(g, g->left[c], c) / pl_liquid_light_u(g, c);
+        s->mass.v[c] = mass_of(g, g->down[c], c) / pl_liquid_light_v(g, c);
+        const near_real thick = !wet ? 0 : g->mixture != NULL ? g->mixture->thick[c] : 1;
+        s->thick[c] = (1 - s->elastic) * thick;
+    }
+}
+
+static void find_weights(pl_viscous *s)
+{
+    const pl_liquid_grid *g = s->g;
+    const pl_liquid_grains *grains = s->grains;
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        const bool bears = grains != NULL && g->row[c] != 0;
+        s->weight[c] = s->thick[c] + (bears ? s->elastic * grains->share[c] * grains->yield[c] : 0);
     }
 }
 
 // How much the slope from a face to the one before it counts; 0: one of them is air's.
-static near_real slope_of(const near_real *is_free, const near_real *open, uint32_t a, uint32_t b)
+static near_real slope_of(const near_real *is_free, const near_real *shut, uint32_t a, uint32_t b)
 {
-    const bool shut_a = open[a] == 0, shut_b = open[b] == 0;
+    const bool shut_a = shut[a] > 0, shut_b = shut[b] > 0;
     if ((is_free[a] == 0 && !shut_a) || (is_free[b] == 0 && !shut_b)) {
         return 0;
     }
     return shut_a != shut_b ? 2 : 1;
 }
 
-static void find_corners(equations *s)
+static void find_corners(pl_viscous *s)
 {
     const pl_liquid_grid *g = s->g;
+    const near_real *weight = s->weight;
+    s->count = 0;
     for (uint32_t c = 1; c < g->cell_count; ++c) {
         const uint32_t left = g->left[c], down = g->down[c], both = g->left[down];
-        const near_real wet =
-            s->col[WEIGHT][c] + s->col[WEIGHT][left] + s->col[WEIGHT][down] + s->col[WEIGHT][both];
-        const near_real u = slope_of(s->col[FREE_U], g->open_u, c, down);
-        const near_real v = slope_of(s->col[FREE_V], g->open_v, c, left);
-        const bool counts = wet > 0 && u > 0 && v > 0;
-        s->col[CORNER][c] = counts ? QUARTER * wet : 0;
-        s->col[TWICE_U][c] = counts ? u : 0;
-        s->col[TWICE_V][c] = counts ? v : 0;
-        if (counts || s->col[WEIGHT][c] + s->col[FREE_U][c] + s->col[FREE_V][c] > 0) {
+        const near_real sum = weight[c] + weight[left] + weight[down] + weight[both];
+        const near_real u = slope_of(s->is_free.u, s->shut.u, c, down);
+        const near_real v = slope_of(s->is_free.v, s->shut.v, c, left);
+        const bool wet = (g->row[c] | g->row[left] | g->row[down] | g->row[both]) != 0;
+        const bool counts = wet && u > 0 && v > 0;
+        s->corner[c] = counts ? QUARTER * sum : 0;
+        s->twice.u[c] = counts ? u : 0;
+        s->twice.v[c] = counts ? v : 0;
+        if (counts || weight[c] + s->is_free.u[c] + s->is_free.v[c] > 0) {
             s->cells[s->count++] = c;
         }
     }
 }
 
-static void find_diagonal(equations *s)
+static void find_diagonal(pl_viscous *s)
 {
     const pl_liquid_grid *g = s->g;
-    const near_real *w = s->col[WEIGHT], *corner = s->col[CORNER];
-    const near_real *u = s->col[TWICE_U], *v = s->col[TWICE_V];
+    const near_real *w = s->weight, *corner = s->corner;
+    const near_real *u = s->twice.u, *v = s->twice.v;
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i], up = g->up[c], right = g->right[c];
         const near_real corner_u = u[c] * u[c] * corner[c] + u[up] * u[up] * corner[up];
         const near_real corner_v = v[c] * v[c] * corner[c] + v[right] * v[right] * corner[right];
-        s->col[DIAGONAL_U][c] = s->col[MASS_U][c] + s->k * (2 * (w[c] + w[g->left[c]]) + corner_u);
-        s->col[DIAGONAL_V][c] = s->col[MASS_V][c] + s->k * (2 * (w[c] + w[g->down[c]]) + corner_v);
+        s->diagonal.u[c] = s->mass.u[c] + s->k * (2 * (w[c] + w[g->left[c]]) + corner_u);
+        s->diagonal.v[c] = s->mass.v[c] + s->k * (2 * (w[c] + w[g->down[c]]) + corner_v);
     }
+}
+
+static void lay_columns(pl_viscous *s, near_real *data)
+{
+    pl_viscous_faces *faces[] = { &s->speed, &s->is_free, &s->shut, &s->mass,    &s->twice,
+                                  &s->left,  &s->way,     &s->out,  &s->diagonal };
+    near_real **cells[] = { &s->thick, &s->weight, &s->corner, &s->xx, &s->yy, &s->xy };
+    const size_t room = s->g->cell_count + 1;
+    for (size_t i = 0; i < sizeof faces / sizeof faces[0]; ++i, data += 2 * room) {
+        faces[i]->u = data;
+        faces[i]->v = data + room;
+    }
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i, data += room) {
+        *cells[i] = data;
+    }
+}
+
+#define COLUMNS 24
+
+bool pl_viscous_begin(pl_memory *memory, pl_liquid_scratch *scratch, double amount, pl_viscous *s)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const size_t room = (g->cell_count + 1) * sizeof(near_real);
+    const size_t columns = (COLUMNS * room + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
+    if (!pl_buffer_reserve(memory, &scratch->viscous,
+                           columns + (g->body_count + 1) * sizeof(pl_viscous_body)) ||
+        !pl_buffer_reserve(memory, &scratch->keys, (g->cell_count + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    const double stiff = g->grains != NULL ? PL_LIQUID_STIFF : 0;
+    const double k = (amount < PL_LIQUID_THICK ? amount : PL_LIQUID_THICK) + stiff;
+    *s = (pl_viscous){ .g = g,
+                       .grains = g->grains,
+                       .k = (near_real)k,
+                       .elastic = (near_real)(stiff / k),
+                       .cells = scratch->keys.data };
+    memset(scratch->viscous.data, 0, columns);
+    lay_columns(s, scratch->viscous.data);
+    find_shut(s);
+    find_faces(s);
+    find_weights(s);
+    find_corners(s);
+    if (g->drag > 0) {
+        s->bodies = (pl_viscous_body *)(void *)((char *)scratch->viscous.data + columns);
+        pl_viscous_find_bodies(s);
+    }
+    return true;
 }
 
 //---- the matrix ----------------------------------------------------------------------------------
 
-static void find_stresses(equations *s, const near_real *u, const near_real *v)
+static void find_stresses(pl_viscous *s, const pl_viscous_faces *of)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i];
-        const near_real w = 2 * s->col[WEIGHT][c];
-        s->col[XX][c] = w * (u[g->right[c]] - u[c]);
-        s->col[YY][c] = w * (v[g->up[c]] - v[c]);
-        s->col[XY][c] = s->col[CORNER][c] * (s->col[TWICE_U][c] * (u[c] - u[g->down[c]]) +
-                                             s->col[TWICE_V][c] * (v[c] - v[g->left[c]]));
+        const near_real w = 2 * s->weight[c];
+        s->xx[c] = w * (of->u[g->right[c]] - of->u[c]);
+        s->yy[c] = w * (of->v[g->up[c]] - of->v[c]);
+        s->xy[c] = s->corner[c] * pl_viscous_slope(s, of, c);
     }
 }
 
-// What stresses do to a face.
-static near_real pull_u(const equations *s, uint32_t c)
+// out = m way - k (what its stresses do), of faces that are unknown.
+static void multiply(pl_viscous *s)
 {
-    const uint32_t up = s->g->up[c];
-    const near_real *xx = s->col[XX], *xy = s->col[XY], *twice = s->col[TWICE_U];
-    return xx[c] - xx[s->g->left[c]] + twice[up] * xy[up] - twice[c] * xy[c];
-}
-
-static near_real pull_v(const equations *s, uint32_t c)
-{
-    const uint32_t right = s->g->right[c];
-    const near_real *yy = s->col[YY], *xy = s->col[XY], *twice = s->col[TWICE_V];
-    return yy[c] - yy[s->g->down[c]] + twice[right] * xy[right] - twice[c] * xy[c];
-}
-
-// out = inertia m (u, v) - k (what stresses do to them), of faces that are unknown.
-static void apply(equations *s, const near_real *u, const near_real *v, near_real inertia,
-                  near_real *out_u, near_real *out_v)
-{
-    find_stresses(s, u, v);
+    find_stresses(s, &s->way);
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i];
-        out_u[c] = s->col[FREE_U][c] * (inertia * s->col[MASS_U][c] * u[c] - s->k * pull_u(s, c));
-        out_v[c] = s->col[FREE_V][c] * (inertia * s->col[MASS_V][c] * v[c] - s->k * pull_v(s, c));
+        s->out.u[c] =
+            s->is_free.u[c] * (s->mass.u[c] * s->way.u[c] - s->k * pl_viscous_pull_u(s, c));
+        s->out.v[c] =
+            s->is_free.v[c] * (s->mass.v[c] * s->way.v[c] - s->k * pl_viscous_pull_v(s, c));
     }
 }
 
-//---- bodies --------------------------------------------------------------------------------------
-
-// Links of faces that are all closed: open ones are unknown themselves.
-static bool is_shut(const pl_liquid_grid *g, const pl_liquid_link *link)
-{
-    return link->upright ? g->open_v[link->cell] == 0 : g->open_u[link->cell] == 0;
-}
-
-static double mass_of(double inverse, const pl_liquid_grid *g)
-{
-    return inverse > 0 ? 1 / (inverse * g->drag) : 0;
-}
-
-static void find_bodies(equations *s)
+// What is left at the velocities there are; the grid has those before.
+static void find_left(pl_viscous *s)
 {
     const pl_liquid_grid *g = s->g;
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        const pl_liquid_body *b = &g->bodies[i];
-        dragged *d = &s->bodies[i];
-        *d = (dragged){ .mass = { mass_of(b->inv_mass_x, g), mass_of(b->inv_mass_y, g),
-                                  mass_of(b->inv_inertia, g) },
-                        .now = { b->vx, b->vy, b->w } };
-        memcpy(d->diagonal, d->mass, sizeof d->mass);
+    find_stresses(s, &s->speed);
+    if (s->grains != NULL) {
+        pl_viscous_add_shear(s, true);
     }
-    for (uint32_t i = 0; i < g->link_count; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        double *to = s->bodies[link->body].diagonal;
-        if (is_shut(g, link)) {
-            const int at = link->upright ? DIAGONAL_V : DIAGONAL_U;
-            const int mass = link->upright ? MASS_V : MASS_U;
-            const double part = (double)link->part, arm = (double)link->arm;
-            const double more =
-                part * part * (double)(s->col[at][link->cell] - s->col[mass][link->cell]);
-            to[link->upright ? 1 : 0] += more > 0 ? more : 0;
-            to[2] += more > 0 ? more * arm * arm : 0;
-        }
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const uint32_t c = s->cells[i];
+        const near_real u = g->u[c] - s->speed.u[c], v = g->v[c] - s->speed.v[c];
+        s->left.u[c] = s->is_free.u[c] * (s->mass.u[c] * u + s->k * pl_viscous_pull_u(s, c));
+        s->left.v[c] = s->is_free.v[c] * (s->mass.v[c] * v + s->k * pl_viscous_pull_v(s, c));
     }
-}
-
-// Faces that bodies close go as these do: of a part of the vectors.
-static void carry(equations *s, near_real *u, near_real *v)
-{
-    const pl_liquid_grid *g = s->g;
-    for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        if (is_shut(g, link)) {
-            (link->upright ? v : u)[link->cell] = 0;
-        }
-    }
-    for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        if (is_shut(g, link)) {
-            const double *way = s->bodies[link->body].way;
-            (link->upright ? v : u)[link->cell] +=
-                link->part * (near_real)(way[link->upright ? 1 : 0] + way[2] * (double)link->arm);
-        }
-    }
-}
-
-// What stresses of the last product do to bodies; with their mass times `of`, if that is not null.
-static void drag_bodies(equations *s, bool inert)
-{
-    const pl_liquid_grid *g = s->g;
-    for (uint32_t i = 0; i < g->body_count && s->bodies != NULL; ++i) {
-        dragged *d = &s->bodies[i];
-        for (int k = 0; k < 3; ++k) {
-            d->out[k] = inert ? d->mass[k] * d->way[k] : 0;
-        }
-    }
-    for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
-        const pl_liquid_link *link = &g->links[i];
-        if (is_shut(g, link)) {
-            const double pull =
-                (double)(link->upright ? pull_v(s, link->cell) : pull_u(s, link->cell));
-            const double got = -(double)s->k * (double)link->part * pull;
-            double *out = s->bodies[link->body].out;
-            out[link->upright ? 1 : 0] += got;
-            out[2] += got * (double)link->arm;
-        }
-    }
-    for (uint32_t i = 0; i < g->body_count && s->bodies != NULL; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            s->bodies[i].out[k] = s->bodies[i].mass[k] > 0 ? s->bodies[i].out[k] : 0;
-        }
-    }
-}
-
-static double dot_bodies(const equations *s, bool bend)
-{
-    double total = 0;
-    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
-        const dragged *d = &s->bodies[i];
-        for (int k = 0; k < 3; ++k) {
-            total += bend             ? d->way[k] * d->out[k]
-                     : d->mass[k] > 0 ? d->left[k] * d->left[k] / d->diagonal[k]
-                                      : 0;
-        }
-    }
-    return total;
-}
-
-// left = keep left + factor out; way = turn way + left over the diagonal.
-static void go_bodies(equations *s, double alpha)
-{
-    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
-        dragged *d = &s->bodies[i];
-        for (int k = 0; k < 3; ++k) {
-            d->now[k] += alpha * d->way[k];
-            d->left[k] -= alpha * d->out[k];
-        }
-    }
-}
-
-static void turn_bodies(equations *s, double beta)
-{
-    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
-        dragged *d = &s->bodies[i];
-        for (int k = 0; k < 3; ++k) {
-            d->way[k] = beta * d->way[k] + (d->mass[k] > 0 ? d->left[k] / d->diagonal[k] : 0);
-        }
-    }
-}
-
-// Bodies have what they got.
-static void keep_bodies(equations *s)
-{
-    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
-        pl_liquid_body *b = &s->g->bodies[i];
-        const dragged *d = &s->bodies[i];
-        const double push = s->g->drag;
-        b->impulse_x += push * d->mass[0] * (d->now[0] - b->vx);
-        b->impulse_y += push * d->mass[1] * (d->now[1] - b->vy);
-        b->turn += push * d->mass[2] * (d->now[2] - b->w);
-        b->vx = d->now[0], b->vy = d->now[1], b->w = d->now[2];
-    }
+    pl_viscous_find_body_left(s);
 }
 
 //---- conjugate gradients -------------------------------------------------------------------------
 
-// Of two columns beside one another; `over`: divided by the diagonal.
-static double dot(const equations *s, int a, int b, bool over)
+// `over`: divided by the diagonal.
+static double dot(const pl_viscous *s, const pl_viscous_faces *a, const pl_viscous_faces *b,
+                  bool over)
 {
     double total = 0;
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i];
-        const double u = (double)s->col[a][c] * (double)s->col[b][c];
-        const double v = (double)s->col[a + 1][c] * (double)s->col[b + 1][c];
-        total +=
-            over ? u / (double)s->col[DIAGONAL_U][c] + v / (double)s->col[DIAGONAL_V][c] : u + v;
+        const double u = (double)a->u[c] * (double)b->u[c];
+        const double v = (double)a->v[c] * (double)b->v[c];
+        total += over ? u / (double)s->diagonal.u[c] + v / (double)s->diagonal.v[c] : u + v;
     }
     return total;
 }
 
-// to = to factor_to + from factor_from, over the diagonal if `over`.
-static void add(equations *s, int to, near_real keep, int from, near_real factor, bool over)
+// to = keep to + factor from, over the diagonal if `over`.
+static void add(const pl_viscous *s, const pl_viscous_faces *to, near_real keep,
+                const pl_viscous_faces *from, near_real factor, bool over)
 {
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i];
-        const near_real u = over ? s->col[from][c] / s->col[DIAGONAL_U][c] : s->col[from][c];
-        const near_real v =
-            over ? s->col[from + 1][c] / s->col[DIAGONAL_V][c] : s->col[from + 1][c];
-        s->col[to][c] = keep * s->col[to][c] + factor * u;
-        s->col[to + 1][c] = keep * s->col[to + 1][c] + factor * v;
+        const near_real u = over ? from->u[c] / s->diagonal.u[c] : from->u[c];
+        const near_real v = over ? from->v[c] / s->diagonal.v[c] : from->v[c];
+        to->u[c] = keep * to->u[c] + factor * u;
+        to->v[c] = keep * to->v[c] + factor * v;
     }
 }
 
-static void solve(equations *s)
+static void solve(pl_viscous *s)
 {
-    apply(s, s->col[U], s->col[V], 0, s->col[LEFT_U], s->col[LEFT_V]);
-    drag_bodies(s, false);
-    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            s->bodies[i].left[k] = -s->bodies[i].out[k];
-        }
-    }
-    add(s, LEFT_U, -1, LEFT_U, 0, false);
-    add(s, WAY_U, 0, LEFT_U, 1, true);
-    turn_bodies(s, 0);
-    double sigma = dot(s, LEFT_U, LEFT_U, true) + dot_bodies(s, false);
-    const double enough = SOLVE_TO * SOLVE_TO * sigma;
-    for (int n = 0; n < MOST_ITERATIONS && sigma > enough; ++n) {
-        carry(s, s->col[WAY_U], s->col[WAY_V]);
-        apply(s, s->col[WAY_U], s->col[WAY_V], 1, s->col[OUT_U], s->col[OUT_V]);
-        drag_bodies(s, true);
-        const double bend = dot(s, WAY_U, OUT_U, false) + dot_bodies(s, true);
+    find_diagonal(s);
+    pl_viscous_find_body_diagonal(s);
+    find_left(s);
+    add(s, &s->way, 0, &s->left, 1, true);
+    pl_viscous_turn_bodies(s, 0);
+    double sigma = dot(s, &s->left, &s->left, true) + pl_viscous_dot_bodies(s, false);
+    s->enough = s->enough > 0 ? s->enough : SOLVE_TO * SOLVE_TO * sigma;
+    for (int n = 0; n < MOST_ITERATIONS && sigma > s->enough; ++n) {
+        pl_viscous_carry(s, &s->way);
+        multiply(s);
+        pl_viscous_drag(s, true);
+        const double bend = dot(s, &s->way, &s->out, false) + pl_viscous_dot_bodies(s, true);
         if (!(bend > 0)) {
             return;
         }
         const near_real alpha = (near_real)(sigma / bend);
-        add(s, U, 1, WAY_U, alpha, false);
-        add(s, LEFT_U, 1, OUT_U, -alpha, false);
-        go_bodies(s, (double)alpha);
-        const double next = dot(s, LEFT_U, LEFT_U, true) + dot_bodies(s, false);
-        add(s, WAY_U, (near_real)(next / sigma), LEFT_U, 1, true);
-        turn_bodies(s, next / sigma);
+        add(s, &s->speed, 1, &s->way, alpha, false);
+        add(s, &s->left, 1, &s->out, -alpha, false);
+        pl_viscous_go_bodies(s, (double)alpha);
+        const double next = dot(s, &s->left, &s->left, true) + pl_viscous_dot_bodies(s, false);
+        add(s, &s->way, (near_real)(next / sigma), &s->left, 1, true);
+        pl_viscous_turn_bodies(s, next / sigma);
         sigma = next;
     }
 }
@@ -372,34 +290,25 @@ static void solve(equations *s)
 bool pl_liquid_diffuse(pl_memory *memory, pl_liquid_scratch *scratch, double amount)
 {
     pl_liquid_grid *g = &scratch->grid;
-    const size_t room = (g->cell_count + 1) * sizeof(near_real);
-    const size_t columns = (COLUMNS * room + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
-    if (!pl_buffer_reserve(memory, &scratch->viscous,
-                           columns + (g->body_count + 1) * sizeof(dragged)) ||
-        !pl_buffer_reserve(memory, &scratch->keys, (g->cell_count + 1) * sizeof(uint32_t))) {
+    pl_viscous s;
+    if (g->grains != NULL) {
+        pl_viscous_guess_yield(g);
+    }
+    if (!pl_viscous_begin(memory, scratch, amount, &s)) {
         return false;
     }
-    const double most = PL_LIQUID_THICK;
-    equations s = { .g = g,
-                    .k = (near_real)(amount < most ? amount : most),
-                    .cells = scratch->keys.data };
-    memset(scratch->viscous.data, 0, columns);
-    for (int i = 0; i < COLUMNS; ++i) {
-        s.col[i] = (near_real *)scratch->viscous.data + (size_t)i * (g->cell_count + 1);
-    }
-    find_faces(&s);
-    find_corners(&s);
-    find_diagonal(&s);
-    if (g->drag > 0) {
-        s.bodies = (dragged *)(void *)((char *)scratch->viscous.data + columns);
-        find_bodies(&s);
-    }
     solve(&s);
-    keep_bodies(&s);
+    for (int n = 1; s.grains != NULL && n < MOST_YIELDS && pl_viscous_find_yield(&s) > SETTLED;
+         ++n) {
+        find_weights(&s);
+        find_corners(&s);
+        solve(&s);
+    }
+    pl_viscous_keep_bodies(&s);
     for (uint32_t i = 0; i < s.count; ++i) {
         const uint32_t c = s.cells[i];
-        g->u[c] = s.col[FREE_U][c] > 0 ? s.col[U][c] : g->u[c];
-        g->v[c] = s.col[FREE_V][c] > 0 ? s.col[V][c] : g->v[c];
+        g->u[c] = s.is_free.u[c] + s.shut.u[c] > 0 ? s.speed.u[c] : g->u[c];
+        g->v[c] = s.is_free.v[c] + s.shut.v[c] > 0 ? s.speed.v[c] : g->v[c];
     }
     return true;
 }

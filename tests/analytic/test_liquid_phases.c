@@ -24,7 +24,8 @@ static plumb_world *make_tank(double width, double height, double spacing, doubl
                               double viscosity)
 {
     plumb_world *w = tank_make(width, height, spacing);
-    const plumb_liquid_phase second = { (plumb_real)density, (plumb_real)viscosity };
+    const plumb_liquid_phase second = { .density = (plumb_real)density,
+                                        .viscosity = (plumb_real)viscosity };
     assert_int_equal(plumb_liquid_set_phases(w, &second, 1), PLUMB_OK);
     return w;
 }

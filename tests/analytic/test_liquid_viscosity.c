@@ -1,5 +1,5 @@
 // test_liquid_viscosity.c - viscosity of the liquid against closed forms: flow between a lid that moves and a floor, the
-// lid-driven cavity (Ghia, Ghia, Shin 1982), a drop that spins on, pitch that stands.
+// lid-driven cavity (Ghia, Ghia, Shin 1982), a drop that spins on, pitch that stands, a lid and a stone that thick liquid holds back.
 // PLUMB_LONG
 #include <math.h>
 #include <setjmp.h>
@@ -241,6 +241,64 @@ static void pitch_stands(void **state)
     assert_true(last < 0.52);
 }
 
+// A lid that a force draws over a closed trough, far longer than deep, is held back by 4 viscosity v L / H: under it some flows back,
+// u = v (3 (y / H)^2 - 2 y / H), but near its ends, which hold it back besides.
+static double speed_of_lid(double spacing)
+{
+    const double depth = 0.5, length = 12, viscosity = 20, force = 80;
+    plumb_world *w = sim_space();
+    tank_wall(w, length / 2, -0.5, length, 0.5);
+    tank_wall(w, -0.5, depth / 2, 0.5, depth / 2);
+    tank_wall(w, length + 0.5, depth / 2, 0.5, depth / 2);
+    const plumb_body lid =
+        plumb_body_create(w, &(plumb_body_desc){ .position = sim_vec(length / 2, depth + 0.5),
+                                                 .fixed_rotation = true,
+                                                 .lock_y = true });
+    const plumb_shape_desc box = { .kind = PLUMB_BOX,
+                                   .half = sim_vec(length, 0.5),
+                                   .filter = { .category = 2, .mask = 4 } };
+    assert_false(plumb_is_null(plumb_shape_create(w, lid, &box)));
+    make_liquid(w, spacing, viscosity);
+    fill(w, 0, 0, length, depth);
+    for (int i = 0; i < 360; ++i) {
+        assert_int_equal(plumb_body_apply_force_center(w, lid, sim_vec(force, 0)), PLUMB_OK);
+        sim_step(w, HZ60);
+    }
+    const double speed = sim_vx(w, lid) / (force * depth / (4 * viscosity * length));
+    plumb_world_destroy(w);
+    return speed;
+}
+
+static void lids_are_dragged(void **state)
+{
+    (void)state;
+    const double coarse = speed_of_lid(0.05), fine = speed_of_lid(0.025);
+    print_message("a lid that is drawn over a trough: %.3f, %.3f of its speed, 5, 10 cells\n",
+                  coarse, fine);
+    assert_near(fine, 1, 0.15);
+    assert_true(fabs(fine - 1) < fabs(coarse - 1));
+}
+
+// Pitch bears a stone twice as dense for a while; what it is dragged by was left out once: it sank as in water.
+static void pitch_bears_a_stone(void **state)
+{
+    (void)state;
+    double depth[2];
+    for (int i = 0; i < 2; ++i) {
+        plumb_world *w = make_tank(2, 1, i == 0 ? 1 : 1e5);
+        const plumb_body stone = sim_body(w, PLUMB_DYNAMIC, 1, 1.05, 0);
+        assert_false(plumb_is_null(plumb_shape_create(
+            w, stone,
+            &(plumb_shape_desc){
+                .kind = PLUMB_CIRCLE, .radius = PLUMB_REAL(0.2), .density = 2000 })));
+        sim_run(w, 120, HZ60);
+        depth[i] = 1 - sim_y(w, stone);
+        plumb_world_destroy(w);
+    }
+    print_message("a stone after 2 s: %.2f m deep in oil, %.3f m in pitch\n", depth[0], depth[1]);
+    assert_true(depth[0] > 0.5 && depth[1] < 0.3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +308,8 @@ int main(void)
         cmocka_unit_test(the_cavity_turns_as_published),
         cmocka_unit_test(drops_spin_on),
         cmocka_unit_test(pitch_stands),
+        cmocka_unit_test(lids_are_dragged),
+        cmocka_unit_test(pitch_bears_a_stone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

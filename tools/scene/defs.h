@@ -212,7 +212,7 @@ typedef struct sc_liquid_def {
     uint64_t present;
     char name[SC_NAME_SIZE]; ///< of its first phase
     char phase[SC_NAME_SIZE];
-    double spacing, density, viscosity, tension, velocity[2];
+    double spacing, density, viscosity, tension, friction, velocity[2];
     sc_color color, dye;
     bool particles, phases, refill;
     int shape_count;
@@ -222,7 +222,7 @@ typedef struct sc_liquid_def {
 typedef struct sc_phase_def {
     uint64_t present;
     char name[SC_NAME_SIZE];
-    double density, viscosity;
+    double density, viscosity, friction;
     sc_color color;
 } sc_phase_def;
 

@@ -13,7 +13,8 @@ static void make_liquid(scene *s, const sc_site *site, const sc_liquid_def *d)
     const plumb_liquid_desc desc = { .spacing = (plumb_real)d->spacing,
                                      .density = (plumb_real)d->density,
                                      .viscosity = (plumb_real)d->viscosity,
-                                     .tension = (plumb_real)d->tension };
+                                     .tension = (plumb_real)d->tension,
+                                     .friction = (plumb_real)d->friction };
     const plumb_result r = plumb_liquid_create(s->world, &desc);
     if (r != PLUMB_OK) {
         sc_refused(s, site, NULL, r, "liquid{}");
@@ -88,8 +89,9 @@ static void take_phases(scene *s, const sc_site *site, int table)
     }
     lua_pop(L, 2);
     for (int i = 0; i < s->phase_count; i++) {
-        phases[i] = (plumb_liquid_phase){ (plumb_real)s->phases[i].density,
-                                          (plumb_real)s->phases[i].viscosity };
+        phases[i] = (plumb_liquid_phase){ .density = (plumb_real)s->phases[i].density,
+                                          .viscosity = (plumb_real)s->phases[i].viscosity,
+                                          .friction = (plumb_real)s->phases[i].friction };
     }
     const plumb_result r = plumb_liquid_set_phases(s->world, phases, s->phase_count);
     if (r != PLUMB_OK) {
@@ -202,7 +204,7 @@ void sc_build_liquid(scene *s, const sc_site *site, int table)
     if (s->liquid_line == 0) {
         make_liquid(s, site, &def);
     } else if (GIVEN(spacing) || GIVEN(density) || GIVEN(viscosity) || GIVEN(tension) ||
-               GIVEN(color) || GIVEN(name) || GIVEN(phases)) {
+               GIVEN(friction) || GIVEN(color) || GIVEN(name) || GIVEN(phases)) {
         sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL,
                  "settings of liquid{} were given on line %d; another one only adds to it",
                  s->liquid_line);

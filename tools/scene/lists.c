@@ -231,6 +231,7 @@ static const sc_field liquid_rows[] = {
     { "color",     SC_COLOR,  AT(T, color),       0, 0, NULL, 0, 0 },
     { "density",   SC_NUMBER, AT(T, density),     1e-6, 1e9, "kg/m^2", 0, 0 },
     { "dye",       SC_COLOR,  AT(T, dye),         0, 0, NULL, 0, 0 },
+    { "friction",  SC_NUMBER, AT(T, friction),    0, 10, "-", 0, 0 },
     { "name",      SC_STRING, AT(T, name),        0, 0, NULL, 0, 0 },
     { "particles", SC_TABLE,  AT(T, particles),   0, 0, NULL, 0, 0 },
     { "phase",     SC_STRING, AT(T, phase),       0, 0, NULL, 0, 0 },
@@ -249,6 +250,7 @@ const sc_list sc_list_liquid = { "liquid", liquid_rows, COUNT(liquid_rows) };
 static const sc_field phase_rows[] = {
     { "color",     SC_COLOR,  AT(T, color),     0, 0, NULL, 0, 0 },
     { "density",   SC_NUMBER, AT(T, density),   1e-9, 1e12, "kg/m^2", 0, 0 },
+    { "friction",  SC_NUMBER, AT(T, friction),  0, 10, "-", 0, 0 },
     { "name",      SC_STRING, AT(T, name),      0, 0, NULL, 0, SC_REQUIRED },
     { "viscosity", SC_NUMBER, AT(T, viscosity), 0, 1e9, "Pa s", 0, 0 },
 };
