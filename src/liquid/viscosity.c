@@ -41,9 +41,12 @@ static near_real fill_of(const pl_liquid_grid *g, uint32_t c)
     return (full < 1 ? full : 1) * (1 - g->cover[c]);
 }
 
-// Of a face between two cells over that of one in the midst of the liquid.
+// Of a face between two cells over that of one in the midst of the liquid. Air, which has no particles, fills all of its cells.
 static near_real mass_of(const pl_liquid_grid *g, uint32_t a, uint32_t b)
 {
+    if (g->point_count == 0) {
+        return 1;
+    }
     const near_real fill = HALF * (fill_of(g, a) + fill_of(g, b));
     return fill > LEAST_MASS ? fill : LEAST_MASS;
 }

@@ -77,6 +77,7 @@ static void bad_settings_are_refused(void **state)
         assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .viscosity = bad[i] }) !=
                     PLUMB_OK);
         assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .tension = bad[i] }) != PLUMB_OK);
+        assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .friction = bad[i] }) != PLUMB_OK);
     }
     plumb_liquid_desc d;
     assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_E_STATE);
@@ -87,13 +88,17 @@ static void bad_settings_are_refused(void **state)
     assert_int_equal(plumb_liquid_settings(w, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_OK);
     assert_true(d.spacing == R(0.05) && d.density == 1000 && d.viscosity == 0 && d.tension == 0);
+    assert_true(d.friction == 0);
     assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .spacing = 1 }), PLUMB_E_STATE);
     assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .tension = -1 }), PLUMB_E_RANGE);
+    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .friction = 11 }), PLUMB_E_RANGE);
     assert_int_equal(
-        plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 3, .viscosity = 2, .tension = 5 }),
+        plumb_liquid_set(
+            w, &(plumb_liquid_desc){ .density = 3, .viscosity = 2, .tension = 5, .friction = 1 }),
         PLUMB_OK);
     assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_OK);
     assert_true(d.spacing == R(0.05) && d.density == 3 && d.viscosity == 2 && d.tension == 5);
+    assert_true(d.friction == 1);
     assert_int_equal(plumb_liquid_destroy(w), PLUMB_OK);
     assert_int_equal(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = 1 }), PLUMB_OK);
 }
@@ -592,7 +597,8 @@ static void phases_are_set_and_told(void **state)
     plumb_world *w;
     int count = 9;
     assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
-    const plumb_liquid_phase two[] = { { .density = 800, .viscosity = 1 }, { .viscosity = 0 } };
+    const plumb_liquid_phase two[] = { { .density = 800, .viscosity = 1, .friction = R(0.5) },
+                                       { .viscosity = 0 } };
     assert_int_equal(plumb_liquid_set_phases(NULL, two, 2), PLUMB_E_NULL);
     assert_int_equal(plumb_liquid_set_phases(w, two, 2), PLUMB_E_STATE);
     assert_null(plumb_liquid_phases(w, &count));
@@ -605,6 +611,8 @@ static void phases_are_set_and_told(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
         const plumb_liquid_phase p = { .density = bad[i] };
         const plumb_liquid_phase q = { .viscosity = i < 3 ? bad[i] : R(1e10) };
+        const plumb_liquid_phase r = { .friction = i < 3 ? bad[i] : R(10.5) };
+        assert_true(plumb_liquid_set_phases(w, &r, 1) != PLUMB_OK);
         assert_true(plumb_liquid_set_phases(w, &p, 1) != PLUMB_OK);
         assert_true(plumb_liquid_set_phases(w, &q, 1) != PLUMB_OK);
     }
@@ -612,8 +620,8 @@ static void phases_are_set_and_told(void **state)
     assert_int_equal(plumb_liquid_set_phases(w, two, 2), PLUMB_OK);
     const plumb_liquid_phase *told = plumb_liquid_phases(w, &count);
     assert_int_equal(count, 2);
-    assert_true(told[0].density == 800 && told[0].viscosity == 1);
-    assert_true(told[1].density == 1000 && told[1].viscosity == 0);
+    assert_true(told[0].density == 800 && told[0].viscosity == 1 && told[0].friction == R(0.5));
+    assert_true(told[1].density == 1000 && told[1].viscosity == 0 && told[1].friction == 0);
     // The first must stay within a thousandth to a thousand times each.
     assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .density = R(0.5) }), PLUMB_E_RANGE);
     assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 2 }), PLUMB_OK);

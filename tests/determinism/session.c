@@ -590,7 +590,8 @@ static void change_liquid(session *s)
     }
     if (one_in(s, 2)) {
         const plumb_liquid_phase oil = { .density = number(s, 300, 2000),
-                                         .viscosity = number(s, 0, 1) };
+                                         .viscosity = number(s, 0, 1),
+                                         .friction = one_in(s, 2) ? number(s, 0, 1) : 0 };
         like.phase = 1;
         plumb_liquid_set_phases(w, &oil, 1);
     }

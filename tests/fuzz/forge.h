@@ -134,7 +134,7 @@ static inline void fill(plumb_world *w, int which)
         plumb_body_set_heating(w, b, 100), plumb_body_set_growth(w, b, R(-0.01));
         plumb_world_exclude_pair(w, a, b, true);
         plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1), .viscosity = 1 });
-        plumb_liquid_set_phases(w, &(plumb_liquid_phase){ .density = 800 }, 1);
+        plumb_liquid_set_phases(w, &(plumb_liquid_phase){ .density = 800, .friction = 1 }, 1);
         plumb_liquid_add_box(w, (plumb_vec2){ R(-0.6), R(0.6) }, (plumb_vec2){ R(0.2), R(0.7) },
                              NULL);
         plumb_liquid_add_box(w, (plumb_vec2){ R(-0.6), R(0.7) }, (plumb_vec2){ R(0.2), R(0.8) },

@@ -296,7 +296,8 @@ static void flow(plumb_world *w, script *s)
     case 0:
         plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = size >= 0.06f ? size : 0.1f,
                                                      .density = real_of(s),
-                                                     .viscosity = real_of(s) });
+                                                     .viscosity = real_of(s),
+                                                     .friction = real_of(s) });
         break;
     case 1:
         plumb_liquid_destroy(w);

@@ -7,7 +7,8 @@ static const char tank[] =
     "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 8, at = {-2.5, 4}}, "
     "box{1, 8, at = {2.5, 4}} }\n"
     "body{ name = 'crate', box{0.6, 0.4}, density = 400, at = {0.3, 1.4}, angle = 0.2 }\n"
-    "liquid{ spacing = 0.1, density = 900, viscosity = 2, tension = 3, color = '#804020', box{4, "
+    "liquid{ spacing = 0.1, density = 900, viscosity = 2, tension = 3, friction = 0.25, color = "
+    "'#804020', box{4, "
     "1, at = {0, "
     "0.5}} "
     "}\n"
@@ -28,7 +29,7 @@ static void words_fill_shapes(void **state)
     plumb_liquid_desc d;
     assert_int_equal(plumb_liquid_settings(scene_world(s), &d), PLUMB_OK);
     assert_true(fabs((double)d.spacing - 0.1) < 1e-6 && d.density == 900 && d.viscosity == 2 &&
-                d.tension == 3);
+                d.tension == 3 && d.friction == (plumb_real)0.25);
     const scene_liquid looks = scene_get_liquid(s, 0);
     assert_true(looks.palette < 0 && looks.color.r == 0x80 && looks.color.a == 0xff);
     int count, moving = 0;
