@@ -72,6 +72,9 @@ typedef struct plumb_particle {
     plumb_real gradient[4];
     uint32_t phase; ///< 0: what plumb_liquid_desc says; from 1: of plumb_liquid_set_phases
     uint32_t tag;   ///< yours: carried along, never read. A dye, for example
+    /// [Pa] what a grain bears beside pressure: half of the difference of normal stresses along x and y, the shear stress. 0
+    /// where there is no friction
+    plumb_real shear[2];
 } plumb_particle;
 
 /// Gives the world a liquid without any particle yet. `desc` may be null (= {0}). Errors: E_NULL, E_RANGE,
@@ -96,7 +99,7 @@ PLUMB_API plumb_result plumb_liquid_set_phases(plumb_world *world, const plumb_l
 PLUMB_API const plumb_liquid_phase *plumb_liquid_phases(const plumb_world *world, int *count);
 
 /// Adds `count` particles as they are: positions [m], |x|, |y| <= 1e9 and at most 2^29 cells from 0, velocities [m/s] up
-/// to 1e6, gradients up to 1e9. They should lie a spacing apart; those inside of shapes are pushed out. Errors: E_NULL,
+/// to 1e6, gradients up to 1e9, shear stresses up to 1e30. They should lie a spacing apart; those inside of shapes are pushed out. Errors: E_NULL,
 /// E_STATE (there is no liquid), E_RANGE (also: more than PLUMB_LIQUID_MAX, no such phase), E_NOT_FINITE, E_MEMORY, E_LOCKED;
 /// then none is added.
 PLUMB_API plumb_result plumb_liquid_add(plumb_world *world, const plumb_particle *particles,

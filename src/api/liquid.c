@@ -17,6 +17,7 @@
 #define NEAREST       0.95 // [spacings] that particles leave between them where a source refills
 #define SPEED_MOST    ((real)PL_LIQUID_SPEED)
 #define SLOPE_MOST    ((real)PL_LIQUID_SLOPE)
+#define SHEAR_MOST    ((real)PL_LIQUID_FORCE)
 
 //---- settings ------------------------------------------------------------------------------------
 
@@ -91,6 +92,9 @@ bool pl_liquid_particle_is_sound(const plumb_particle *p, uint32_t phases)
                  p->velocity.y >= -SPEED_MOST && p->velocity.y <= SPEED_MOST && p->phase <= phases;
     for (int k = 0; k < 4; ++k) {
         sound &= p->gradient[k] >= -SLOPE_MOST && p->gradient[k] <= SLOPE_MOST;
+    }
+    for (int k = 0; k < 2; ++k) {
+        sound &= p->shear[k] >= -SHEAR_MOST && p->shear[k] <= SHEAR_MOST;
     }
     return sound;
 }
@@ -266,6 +270,9 @@ static plumb_result check_like(const plumb_world *world, const char *fn, const p
     PL_TRY(pl_check_within(world, fn, "velocity", p->velocity, SPEED_MOST));
     for (int k = 0; k < 4; ++k) {
         PL_TRY(pl_check_range(world, fn, "gradient", p->gradient[k], -SLOPE_MOST, SLOPE_MOST));
+    }
+    for (int k = 0; k < 2; ++k) {
+        PL_TRY(pl_check_range(world, fn, "shear", p->shear[k], -SHEAR_MOST, SHEAR_MOST));
     }
     if (p->phase > world->liquid.phase_count) {
         return pl_fail(world, PLUMB_E_RANGE, fn, "phase is %u; it must be 0 to %u",
@@ -479,18 +486,13 @@ int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
     }
     pl_liquid *liquid = &world->liquid;
     plumb_particle *items = pl_liquid_items(liquid);
-    pl_liquid_shear *shears = liquid->shears.data;
-    uint32_t kept = 0, bearing = 0;
+    uint32_t kept = 0;
     for (uint32_t i = 0; i < liquid->count; ++i) {
         if (!is_in(items[i].position, low, high)) {
-            if (i < liquid->shear_count) {
-                shears[bearing++] = shears[i];
-            }
             items[kept++] = items[i];
         }
     }
     const uint32_t removed = liquid->count - kept;
-    liquid->shear_count = bearing;
     liquid->count = kept;
     liquid->index.fresh &= removed == 0;
     world->schedule_dirty |= kept == 0 && removed > 0;

@@ -16,7 +16,6 @@
 #include "liquid/liquid.h"
 
 #include <math.h>
-#include <string.h>
 
 // [cells] that lie on grains at the surface, of which pressures there know nothing: with 0 the top layer of a heap flows off, by
 // 8 cm/s at cells of 10 cm, with a whole one slopes of 0.8 stand at a friction of 0.6.
@@ -37,40 +36,14 @@ bool pl_liquid_is_granular(const pl_liquid *liquid)
     return any;
 }
 
-bool pl_liquid_find_grains(pl_memory *memory, pl_liquid *liquid)
+void pl_liquid_find_grains(pl_liquid *liquid)
 {
     pl_liquid_scratch *scratch = liquid->scratch;
-    const size_t bytes = liquid->count * sizeof(pl_liquid_shear);
-    scratch->grid.grains = NULL;
-    if (!pl_liquid_is_granular(liquid)) {
-        return true;
-    }
-    // Both: what is moved becomes what is stored when nothing can fail any more.
-    if (!pl_buffer_reserve(memory, &liquid->shears, bytes) ||
-        !pl_buffer_reserve(memory, &scratch->moved_shears, bytes)) {
-        return false;
-    }
     pl_liquid_grains *grains = &scratch->grains;
-    grains->shears = scratch->moved_shears.data;
-    for (uint32_t i = 0; i < liquid->count; ++i) {
-        grains->shears[i] = i < liquid->shear_count
-                                ? ((const pl_liquid_shear *)liquid->shears.data)[i]
-                                : (pl_liquid_shear){ 0, 0 };
-    }
+    scratch->grid.grains = pl_liquid_is_granular(liquid) ? grains : NULL;
+    grains->particles = scratch->moved.data;
     for (uint32_t i = 0; i <= liquid->phase_count; ++i) {
         grains->friction[i] = friction_of(liquid, i);
-    }
-    scratch->grid.grains = grains;
-    return true;
-}
-
-void pl_liquid_keep_grains(pl_liquid *liquid)
-{
-    const bool any = liquid->scratch->grid.grains != NULL;
-    liquid->shear_count = any ? liquid->count : 0;
-    if (any) {
-        memcpy(liquid->shears.data, liquid->scratch->moved_shears.data,
-               liquid->count * sizeof(pl_liquid_shear));
     }
 }
 
@@ -89,12 +62,12 @@ static void gather_range(void *context, uint32_t first, uint32_t count)
     for (uint32_t c = 1 + first; c < 1 + first + count; ++c) {
         double normal = 0, tangent = 0, friction = 0, share = 0;
         for (uint32_t k = g->first[c]; k < g->first[c + 1]; ++k) {
-            const pl_liquid_shear *shear = &s->shears[g->points[k].index];
+            const plumb_particle *p = &s->particles[g->points[k].index];
             const double own = s->friction[phase_at(g, k)];
             friction += own;
             share += own > 0;
-            normal += own > 0 ? (double)shear->normal : 0;
-            tangent += own > 0 ? (double)shear->tangent : 0;
+            normal += own > 0 ? (double)p->shear[0] : 0;
+            tangent += own > 0 ? (double)p->shear[1] : 0;
         }
         const double part = share > 0 ? 1.0 / (g->first[c + 1] - g->first[c]) : 0;
         s->normal[c] = (near_real)(part * scale * normal);
@@ -170,13 +143,13 @@ void pl_liquid_press_grains(pl_liquid_grid *g)
 
 //---- of particles --------------------------------------------------------------------------------
 
-// By the angle that its place turns by in a part, twice: t is about that, and keeps |s|.
-static pl_liquid_shear turned(const pl_liquid_shear *s, double t)
+// Stresses are turned by the angle that a place turns by in a part, twice: t is about that, and keeps their size.
+static void turn(double t, double *normal, double *tangent)
 {
     const double cosine = (1 - t * t / 4) / (1 + t * t / 4), sine = t / (1 + t * t / 4);
-    const double normal = (double)s->normal, tangent = (double)s->tangent;
-    return (pl_liquid_shear){ (plumb_real)(cosine * normal - sine * tangent),
-                              (plumb_real)(sine * normal + cosine * tangent) };
+    const double before = *normal;
+    *normal = cosine * before - sine * *tangent;
+    *tangent = sine * before + cosine * *tangent;
 }
 
 typedef struct bearing {
@@ -193,14 +166,15 @@ static void bear_range(void *context, uint32_t first, uint32_t count)
         const pl_liquid_point *p = &g->points[k];
         const double pressure = pl_liquid_bearing(s, p->cell);
         const double most = s->friction[phase_at(g, k)] * pressure * s->unit;
-        pl_liquid_shear *own = &s->shears[p->index];
-        const pl_liquid_shear now = turned(own, (double)(p->slope[2] - p->slope[1]) * b->way);
-        const double normal = (double)now.normal + s->unit * (double)s->gain_normal[p->cell];
-        const double tangent = (double)now.tangent + s->unit * (double)s->gain_tangent[p->cell];
+        plumb_particle *own = &s->particles[p->index];
+        double normal = (double)own->shear[0], tangent = (double)own->shear[1];
+        turn((double)(p->slope[2] - p->slope[1]) * b->way, &normal, &tangent);
+        normal += s->unit * (double)s->gain_normal[p->cell];
+        tangent += s->unit * (double)s->gain_tangent[p->cell];
         const double size = sqrt(normal * normal + tangent * tangent);
         const double part = size <= most ? 1 : most / size;
-        *own = (pl_liquid_shear){ (plumb_real)pl_liquid_held(part * normal, PL_LIQUID_FORCE),
-                                  (plumb_real)pl_liquid_held(part * tangent, PL_LIQUID_FORCE) };
+        own->shear[0] = (plumb_real)pl_liquid_held(part * normal, PL_LIQUID_FORCE);
+        own->shear[1] = (plumb_real)pl_liquid_held(part * tangent, PL_LIQUID_FORCE);
     }
 }
 

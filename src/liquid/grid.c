@@ -219,16 +219,15 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
 void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_buffer *all[] = {
-        &scratch->moved,       &scratch->pushes,     &scratch->cells,       &scratch->tiles,
-        &scratch->hash,        &scratch->keys,       &scratch->points,      &scratch->spots,
-        &scratch->strays,      &scratch->occupied,   &scratch->viscous,     &scratch->blocks,
-        &scratch->strips,      &scratch->vectors,    &scratch->sums,        &scratch->bodies,
-        &scratch->links,       &scratch->solids,     &scratch->tile_solids, &scratch->phases,
-        &scratch->blends,      &scratch->mixed,      &scratch->rooms,       &scratch->room_cells,
-        &scratch->order,       &scratch->supports,   &scratch->joined,      &scratch->nodes,
-        &scratch->rings,       &scratch->softbodies, &scratch->soft_links,  &scratch->sides,
-        &scratch->touches,     &scratch->tension,    &scratch->rims,        &scratch->granular,
-        &scratch->moved_shears
+        &scratch->moved,   &scratch->pushes,     &scratch->cells,       &scratch->tiles,
+        &scratch->hash,    &scratch->keys,       &scratch->points,      &scratch->spots,
+        &scratch->strays,  &scratch->occupied,   &scratch->viscous,     &scratch->blocks,
+        &scratch->strips,  &scratch->vectors,    &scratch->sums,        &scratch->bodies,
+        &scratch->links,   &scratch->solids,     &scratch->tile_solids, &scratch->phases,
+        &scratch->blends,  &scratch->mixed,      &scratch->rooms,       &scratch->room_cells,
+        &scratch->order,   &scratch->supports,   &scratch->joined,      &scratch->nodes,
+        &scratch->rings,   &scratch->softbodies, &scratch->soft_links,  &scratch->sides,
+        &scratch->touches, &scratch->tension,    &scratch->rims,        &scratch->granular
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);
@@ -246,7 +245,6 @@ void pl_liquid_free(pl_memory *memory, pl_liquid *liquid)
     pl_buffer_free(memory, &liquid->settings);
     pl_buffer_free(memory, &liquid->particles);
     pl_buffer_free(memory, &liquid->phases);
-    pl_buffer_free(memory, &liquid->shears);
     pl_buffer_free(memory, &liquid->supports);
     pl_buffer_free(memory, &liquid->contacts);
     pl_buffer_free(memory, &liquid->ends);

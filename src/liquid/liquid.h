@@ -156,10 +156,8 @@ static inline double pl_liquid_bearing(const pl_liquid_grains *grains, uint32_t 
 
 // Whether the liquid, or a phase of it, is granular.
 bool pl_liquid_is_granular(const pl_liquid *liquid);
-// The grid's `grains`, or none. False when out of memory.
-bool pl_liquid_find_grains(pl_memory *memory, pl_liquid *liquid);
-// The step is over: what they bear now is the liquid's.
-void pl_liquid_keep_grains(pl_liquid *liquid);
+// The grid's `grains`, or none.
+void pl_liquid_find_grains(pl_liquid *liquid);
 // What they bear in cells of the grid. unit: [Pa] of 1 m/s; fall: [m/s] by gravity in a part. False when out of memory.
 bool pl_liquid_gather_grains(pl_memory *memory, pl_liquid_scratch *scratch, double unit,
                              double fall);

@@ -203,9 +203,7 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
     pl_liquid_find_mixture(liquid, world->gravity);
-    if (!pl_liquid_find_grains(&world->memory, liquid)) {
-        return PLUMB_E_MEMORY;
-    }
+    pl_liquid_find_grains(liquid);
     pl_liquid_place_solids(world, scratch, 0);
     if (!pl_liquid_find_strays(&world->memory, scratch, scratch->moved.data, liquid->count)) {
         return PLUMB_E_MEMORY;
@@ -230,7 +228,6 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
     if (liquid->count > 0) {
         memcpy(liquid->particles.data, liquid->scratch->moved.data,
                liquid->count * sizeof(plumb_particle));
-        pl_liquid_keep_grains(liquid);
     }
     liquid->scratch->push_count = 0;
     liquid->index.fresh = false;

@@ -255,7 +255,7 @@ static bool check_liquid(const plumb_world *w)
 {
     const pl_liquid *f = &w->liquid;
     if (f->settings_count > 1 || f->count > PLUMB_LIQUID_MAX ||
-        f->phase_count > PLUMB_LIQUID_MAX_PHASES || f->shear_count > f->count ||
+        f->phase_count > PLUMB_LIQUID_MAX_PHASES ||
         (f->count + f->phase_count + f->support_count > 0 && f->settings_count == 0)) {
         return false;
     }
@@ -274,10 +274,6 @@ static bool check_liquid(const plumb_world *w)
     }
     for (uint32_t i = 0; i < f->count && sound; ++i) {
         sound = pl_liquid_particle_is_sound(&pl_liquid_items(f)[i], f->phase_count);
-    }
-    for (uint32_t i = 0; i < f->shear_count && sound; ++i) {
-        const pl_liquid_shear *s = &((const pl_liquid_shear *)f->shears.data)[i];
-        sound = s->normal - s->normal == 0 && s->tangent - s->tangent == 0;
     }
     return sound;
 }

@@ -146,7 +146,6 @@
     ARRAY(plumb_liquid_desc, liquid.settings, liquid.settings_count, sizeof(plumb_liquid_desc), 0)     \
     ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
     ARRAY(plumb_liquid_phase, liquid.phases, liquid.phase_count, sizeof(plumb_liquid_phase), 0)        \
-    ARRAY(pl_liquid_shear, liquid.shears, liquid.shear_count, sizeof(pl_liquid_shear), 0)              \
     ARRAY(pl_liquid_support, liquid.supports, liquid.support_count, sizeof(pl_liquid_support), 8)      \
     LEFT(liquid.scratch) LEFT(liquid.contacts) LEFT(liquid.ends) LEFT(liquid.contact_count)        \
     LEFT(liquid.end_count) LEFT(liquid.index)

@@ -190,7 +190,7 @@ static void drops_spin_on(void **state)
             for (int i = -16; i < 16; ++i) {
                 const double x = (i + 0.5) * 0.05, y = (j + 0.5) * 0.05;
                 const plumb_particle p = {
-                    sim_vec(x, y), sim_vec(-2 * y, 2 * x), { 0, -2, 2, 0 }, 0, 0
+                    sim_vec(x, y), sim_vec(-2 * y, 2 * x), { 0, -2, 2, 0 }, 0, 0, { 0, 0 }
                 };
                 if (x * x + y * y < 0.64) {
                     assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);

@@ -124,11 +124,11 @@ static void bad_particles_are_refused(void **state)
     assert_int_equal(plumb_liquid_add(w, &p, -1), PLUMB_E_RANGE);
     for (int i = 0; i < 4; ++i) {
         plumb_particle two[2] = { p, p };
-        plumb_real *const members[] = {
-            &two[1].position.x, &two[1].position.y,  &two[1].velocity.x,
-            &two[1].velocity.y, &two[1].gradient[0], &two[1].gradient[3]
-        };
-        for (int k = 0; k < 6; ++k) {
+        plumb_real *const members[] = { &two[1].position.x,  &two[1].position.y,
+                                        &two[1].velocity.x,  &two[1].velocity.y,
+                                        &two[1].gradient[0], &two[1].gradient[3],
+                                        &two[1].shear[0],    &two[1].shear[1] };
+        for (int k = 0; k < 8; ++k) {
             const plumb_real good = *members[k];
             *members[k] = bad[i];
             assert_true(plumb_liquid_add(w, two, 2) != PLUMB_OK);
@@ -201,9 +201,12 @@ static void extremes_stay_finite(void **state)
         PLUMB_OK);
     for (int i = 0; i < 50; ++i) {
         const plumb_real s = i % 2 == 0 ? R(1e6) : R(-1e6);
-        const plumb_particle p = {
-            { R(0.001 * i), R(i % 3) }, { s, -s }, { R(1e9), R(-1e9), R(1e9), R(1e9) }, 0, 7
-        };
+        const plumb_particle p = { { R(0.001 * i), R(i % 3) },
+                                   { s, -s },
+                                   { R(1e9), R(-1e9), R(1e9), R(1e9) },
+                                   0,
+                                   7,
+                                   { 0, 0 } };
         assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);
     }
     const plumb_particle far = { .position = { R(1e8), R(-1e8) } };

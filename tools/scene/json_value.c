@@ -168,14 +168,14 @@ static void write_phases(sc_json_writer *w)
     fputs("\n]", w->file);
 }
 
-// A particle a line: place, velocity, gradient; of those that have them, phase and tag.
+// A particle a line: place, velocity, gradient; of those that have them, phase and tag, and shear stresses behind these.
 static void write_particles(sc_json_writer *w)
 {
     int count;
     const plumb_particle *p = plumb_liquid_particles(w->s->world, &count);
     fputc('[', w->file);
     for (int i = 0; i < count; i++) {
-        const double numbers[10] = { (double)p[i].position.x,
+        const double numbers[12] = { (double)p[i].position.x,
                                      (double)p[i].position.y,
                                      (double)p[i].velocity.x,
                                      (double)p[i].velocity.y,
@@ -184,12 +184,15 @@ static void write_particles(sc_json_writer *w)
                                      (double)p[i].gradient[2],
                                      (double)p[i].gradient[3],
                                      p[i].phase,
-                                     p[i].tag };
-        const int more = p[i].phase != 0 || p[i].tag != 0 ? 10 : 8;
+                                     p[i].tag,
+                                     (double)p[i].shear[0],
+                                     (double)p[i].shear[1] };
+        const bool bears = p[i].shear[0] != 0 || p[i].shear[1] != 0;
+        const int more = bears ? 12 : p[i].phase != 0 || p[i].tag != 0 ? 10 : 8;
         fputs(i > 0 ? ",\n" : "\n", w->file);
         for (int k = 0; k < more; k++) {
             fputc(k > 0 ? ',' : '[', w->file);
-            sc_json_number(w, numbers[k], k < 8);
+            sc_json_number(w, numbers[k], k < 8 || k > 9);
         }
         fputc(']', w->file);
     }

@@ -146,13 +146,13 @@ static void add_shapes(scene *s, const sc_site *site, int table, const sc_liquid
     lua_pop(L, 1);
 }
 
-// {x, y}, {x, y, vx, vy}, with four of the gradient, or with phase and tag behind these: on top of the stack.
+// {x, y}, {x, y, vx, vy}, with four of the gradient, or with phase and tag behind these, and shear stresses: on top of the stack.
 static void add_particle(scene *s, const sc_site *site, int number)
 {
     lua_State *L = s->L;
-    double v[10] = { 0 };
+    double v[12] = { 0 };
     const int count = lua_type(L, -1) == LUA_TTABLE ? (int)lua_rawlen(L, -1) : 0;
-    bool good = count == 2 || count == 4 || count == 8 || count == 10;
+    bool good = count == 2 || count == 4 || count == 8 || count == 10 || count == 12;
     for (int k = 0; good && k < count; k++) {
         lua_rawgeti(L, -1, k + 1);
         good = lua_type(L, -1) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1));
@@ -164,12 +164,13 @@ static void add_particle(scene *s, const sc_site *site, int number)
     }
     if (!good) {
         sc_raise(s, SCENE_E_TYPE, site, "particles", 0, NULL,
-                 "particle %d of liquid{} must be 2, 4, 8 or 10 numbers: place, velocity, "
-                 "gradient, phase and tag",
+                 "particle %d of liquid{} must be 2, 4, 8, 10 or 12 numbers: place, velocity, "
+                 "gradient, phase and tag, shear stresses",
                  number);
     }
     plumb_particle p = { .position = { (plumb_real)v[0], (plumb_real)v[1] },
                          .velocity = { (plumb_real)v[2], (plumb_real)v[3] },
+                         .shear = { (plumb_real)v[10], (plumb_real)v[11] },
                          .phase = (uint32_t)v[8],
                          .tag = (uint32_t)v[9] };
     for (int k = 0; k < 4; k++) {

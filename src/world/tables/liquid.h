@@ -84,15 +84,10 @@ typedef struct pl_liquid_mixture {
     double fall_x, fall_y;        // [m/s^2] gravity
 } pl_liquid_mixture;
 
-// [Pa] what grains of a granular phase bear beside pressure: half of the difference of both normal stresses, the shear stress.
-typedef struct pl_liquid_shear {
-    plumb_real normal, tangent;
-} pl_liquid_shear;
-
 // Granular phases in a part of a step, if there are any (grains.c). Columns of cells, [m/s] as pressures are.
 typedef struct pl_liquid_grains {
     double friction[1 + PLUMB_LIQUID_MAX_PHASES]; // of the phases
-    pl_liquid_shear *shears;                      // of particles, in their own order
+    plumb_particle *particles;                    // in their own order
     double unit;                                  // [Pa] of 1 m/s
     double least;                                 // [m/s] pressure that grains have at the surface: of half a cell
     near_real *normal, *tangent;                  // mean of what particles bear
@@ -302,7 +297,7 @@ typedef struct pl_liquid_scratch {
     pl_liquid_mixture mixture;
     pl_liquid_grains grains;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, rims, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches, granular, moved_shears;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, rims, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches, granular;
 } pl_liquid_scratch;
 
 // Particles by the bins that they lie in, for questions (sample.c): made when the first one is asked after they moved.
@@ -321,8 +316,6 @@ typedef struct pl_liquid {
     pl_buffer particles; // plumb_particle
     pl_buffer phases;    // plumb_liquid_phase, beside the first
     uint32_t phase_count;
-    uint32_t shear_count; // particles behind bear nothing; 0: nothing is granular
-    pl_buffer shears;     // pl_liquid_shear of the first particles
     uint32_t support_count;
     pl_buffer supports;         // pl_liquid_support, by key
     pl_liquid_scratch *scratch; // NULL: no step has needed it yet
