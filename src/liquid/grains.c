@@ -74,8 +74,8 @@ static void gather_range(void *context, uint32_t first, uint32_t count)
         s->tangent[c] = (near_real)(part * scale * tangent);
         s->bound[c] = (near_real)(part * friction);
         s->share[c] = (near_real)(part * share);
-        s->pressure[c] = s->trial[c] = 0;
-        s->yield[c] = 1;
+        s->pressure[c] = s->trial[c] = s->gain_normal[c] = s->gain_tangent[c] = 0;
+        s->yield[c] = s->kept[c] = 1;
     }
 }
 

@@ -127,9 +127,6 @@ static near_real kept_beside(const pl_liquid_body *b, double push)
 static void find_kept(pl_viscous *s)
 {
     const pl_liquid_grid *g = s->g;
-    for (uint32_t i = 0; i < s->count; ++i) {
-        s->grains->kept[s->cells[i]] = 1;
-    }
     for (uint32_t i = 0; i < g->link_count; ++i) {
         const pl_liquid_link *link = &g->links[i];
         const near_real keep = kept_beside(&g->bodies[link->body], g->drag);

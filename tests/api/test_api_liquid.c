@@ -128,7 +128,7 @@ static void bad_particles_are_refused(void **state)
                                         &two[1].velocity.x,  &two[1].velocity.y,
                                         &two[1].gradient[0], &two[1].gradient[3],
                                         &two[1].shear[0],    &two[1].shear[1] };
-        for (int k = 0; k < 8; ++k) {
+        for (int k = 0; k < (i < 2 ? 8 : 6); ++k) { // 2e9 Pa is a stress
             const plumb_real good = *members[k];
             *members[k] = bad[i];
             assert_true(plumb_liquid_add(w, two, 2) != PLUMB_OK);

@@ -62,8 +62,9 @@ static void json_keeps_it(void **state)
         assert_true(before > 0 || memcmp(p, q, (size_t)count * sizeof *p) == 0);
         free(json);
         json = export_json(b, &size);
-        assert_non_null(
-            strstr(json, "\"liquid\":{\"color\":\"#804020\",\"density\":900,\"particles\":"));
+        assert_non_null(strstr(
+            json,
+            "\"liquid\":{\"color\":\"#804020\",\"density\":900,\"friction\":0.25,\"particles\":"));
         free(json);
         scene_destroy(a);
         scene_destroy(b);
