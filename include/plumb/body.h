@@ -44,6 +44,8 @@ typedef struct plumb_body_desc {
     plumb_real time_scale;       ///< [-] 0..100: see plumb_body_set_time_scale; 0 means 1
     plumb_real charge;           ///< [C]: see plumb/law.h
     plumb_real attraction;       ///< [-] 0..1e6: see plumb/law.h
+    plumb_real dipole;           ///< [C m]: see plumb/law.h
+    plumb_real dipole_angle;     ///< [rad] whereto it points, from the x axis of the body's frame
     plumb_real drag;             ///< [kg/m] 0..1e9: see plumb_body_set_drag
     plumb_real thrust;           ///< [N] 0..1e12: see plumb_body_set_thrust
     plumb_real exhaust;          ///< [m/s] 0..1e9 of its engine; 0: it burns nothing

@@ -83,7 +83,7 @@ PLUMB_API int plumb_world_laws(const plumb_world *world, plumb_law *laws, int ca
 
 /// What the laws and the world's gravity give a body of so much charge per mass [C/kg] and of gravity scale 1 that is at a
 /// place with a velocity: an acceleration [m/s^2]. Categories do not count, mutual laws are those of bodies that attract
-/// (of charges: that are charged). 0 on error: E_NOT_FINITE.
+/// (of charges: that are charged or have a dipole). 0 on error: E_NOT_FINITE.
 PLUMB_API plumb_vec2 plumb_world_law_at(const plumb_world *world, plumb_vec2 position,
                                         plumb_vec2 velocity, plumb_real charge_per_mass);
 
@@ -111,6 +111,24 @@ PLUMB_API plumb_real plumb_body_charge(const plumb_world *world, plumb_body body
 PLUMB_API plumb_result plumb_body_set_attraction(plumb_world *world, plumb_body body,
                                                  plumb_real attraction);
 PLUMB_API plumb_real plumb_body_attraction(const plumb_world *world, plumb_body body);
+
+/// Dipole moment [C m] -1e9..1e9 of a dynamic body, at its centre of mass, towards dipole_angle [rad] from the x axis of its frame: two
+/// opposite charges, the positive one ahead, whose distance is next to nothing. A bar magnet or a compass needle, with its
+/// north pole ahead, is such a dipole of poles: a mutual law on charge acts between magnets, a uniform one is a field in the plane.
+/// Every law on charge turns it by p x E and pulls it where the field E is another from place to place, by (p . grad) E;
+/// by a mutual law on charge it acts on charges and dipoles as they do on it, so that momentum and angular momentum stay.
+/// Two dipoles in line attract each other by 6 k p1 p2 / r^4 where charges have 1/r^2, side by side by half of that where
+/// they point opposite ways. Close together the law's softening bounds it: forces of magnets that touch are those of dipoles
+/// sqrt(r^2 + softening^2) apart. Magnetic laws, whose field is out of the plane, leave dipoles alone; at the edge of a zone
+/// nothing pulls. Of second order in the substep; a needle that swings at w [rad/s] needs substeps below 2 / w. Bodies with a dipole
+/// that something acts on do not fly. The energy -p . E is part of plumb_world_energy. 0, the default: none; bodies
+/// without it pay nothing. Cutting a body shares its dipole by mass. Errors: as plumb_body_set_charge.
+PLUMB_API plumb_result plumb_body_set_dipole(plumb_world *world, plumb_body body, plumb_real dipole);
+PLUMB_API plumb_real plumb_body_dipole(const plumb_world *world, plumb_body body);
+/// Angle [rad] -1e9..1e9. Errors: as plumb_body_set_charge.
+PLUMB_API plumb_result plumb_body_set_dipole_angle(plumb_world *world, plumb_body body,
+                                                   plumb_real dipole_angle);
+PLUMB_API plumb_real plumb_body_dipole_angle(const plumb_world *world, plumb_body body);
 
 PLUMB_END
 

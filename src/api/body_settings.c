@@ -106,6 +106,8 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     }
 NUMBER_SETTER(charge)
 NUMBER_SETTER(attraction)
+NUMBER_SETTER(dipole)
+NUMBER_SETTER(dipole_angle)
 NUMBER_SETTER(drag)
 NUMBER_SETTER(thrust)
 NUMBER_SETTER(exhaust)

@@ -128,9 +128,11 @@ static void share_settings(const division *d, uint32_t row, double share, bool k
     plumb_world *world = d->world;
     pl_body_settings t = pl_body_settings_get(world, pl_body_row(world, d->body));
     t.charge = (real)((double)t.charge * share);
+    t.dipole = (real)((double)t.dipole * share);
     t.drag = (real)((double)t.drag * share);
     t.fuel = (real)((double)t.fuel * share);
     t.fuel_low = t.mass_low = 0;
+    t.pull_x = t.pull_y = t.pull_tip = 0;
     if (!keeps) {
         t.thrust = t.exhaust = t.fuel = 0;
         t.break_force = t.break_impulse = t.break_energy = 0;

@@ -97,15 +97,17 @@ static double of_body(const plumb_world *world, const pl_law_now *law, uint32_t 
 {
     const pl_law_body body = pl_law_body_of(world, row_of(world, i));
     const pl_law_state at = state_of(world, body.row);
+    const pl_pole pole = pl_pole_of(world, &body);
     double sum = 0;
     if (law->desc->kind != PLUMB_LAW_MUTUAL) {
-        return of_one(law, &body, at.x, at.y);
+        return of_one(law, &body, at.x, at.y) + pl_dipole_energy_in(law, &pole);
     }
     for (uint32_t k = i + 1; k < count; ++k) {
         const pl_law_body other = pl_law_body_of(world, row_of(world, k));
         const pl_law_state there = state_of(world, other.row);
+        const pl_pole far = pl_pole_of(world, &other);
         const double dx = there.x - at.x, dy = there.y - at.y;
-        sum += of_pair(law, &body, &other, dx * dx + dy * dy);
+        sum += of_pair(law, &body, &other, dx * dx + dy * dy) + pl_dipole_energy(law, &pole, &far);
     }
     return sum;
 }
@@ -141,8 +143,11 @@ void pl_laws_at(const pl_law_system *of, const pl_law_state *state, double out[2
             const pl_law_state at = state_of(world, row);
             const double dx = at.x - state->x, dy = at.y - state->y, r = dx * dx + dy * dy;
             const double f = pl_law_pair(law, of->bodies, &body) * pl_law_falloff(law, r);
-            out[0] += f / of->bodies->mass * dx;
-            out[1] += f / of->bodies->mass * dy;
+            const pl_pole from = pl_pole_of(world, &body);
+            const pl_dipole_push more =
+                pl_dipole_pair(law, &from, &(pl_pole){ of->bodies, state->x, state->y, 0, 0 });
+            out[0] += f / of->bodies->mass * dx + more.fx / of->bodies->mass;
+            out[1] += f / of->bodies->mass * dy + more.fy / of->bodies->mass;
         }
     }
 }
@@ -199,23 +204,47 @@ void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double c
     }
 }
 
+// [m/s^2] that a law that moved gives a body's dipole; [2]: its farthest point, by the turn.
+static void add_dipole(const plumb_world *world, const pl_law_now *law, const pl_law_body *body,
+                       double out[3])
+{
+    const pl_bodies *b = &world->bodies;
+    const pl_pole pole = pl_pole_of(world, body);
+    if (pl_law_is_endless(law->desc) || pl_law_reaches(law, pole.x - law->x, pole.y - law->y)) {
+        const pl_dipole_push push = pl_dipole_in(law, &pole, law->x, law->y);
+        out[0] += push.fx / body->mass, out[1] += push.fy / body->mass;
+        out[2] += push.torque * (double)(b->inv_inertia[body->row] * b->extent[body->row]);
+    }
+}
+
+static bool is_source(const pl_law_step *s, const pl_law_now *laws, const pl_law_body *body)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < s->law_count; ++i) {
+        any |= pl_law_is_source(laws[i].desc, body);
+    }
+    return any;
+}
+
 bool pl_laws_stir(const plumb_world *world, uint32_t row)
 {
     const pl_law_step *s = &world->laws.step;
     pl_law_body body = pl_law_body_of(world, row);
     const pl_law_state state = state_of(world, row);
     const double least = (double)pl_push_tolerance(world);
+    const bool source = is_source(s, pl_laws_now(world), &body); // laws.c asks for its rest
     for (uint32_t i = 0; i < s->law_count; ++i) {
         pl_law_now law = pl_laws_now(world)[i];
-        double a[2];
-        const bool moves = law.moved || (law.desc->kind == PLUMB_LAW_MUTUAL && s->source_count > 0);
-        if (!moves || law.carrier == row) {
+        double a[3] = { 0, 0, 0 };
+        const bool mutual = law.desc->kind == PLUMB_LAW_MUTUAL && s->source_count > 0 && !source;
+        if ((!law.moved && !mutual) || law.carrier == row) {
             continue;
         }
         law.member = PL_NONE;
         const pl_law_system one = system_of(world, &law, &body);
         pl_laws_at(&one, &state, a);
-        if (a[0] * a[0] + a[1] * a[1] > least * least) {
+        add_dipole(world, &law, &body, a);
+        if (a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > least * least) {
             return true;
         }
     }

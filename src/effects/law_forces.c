@@ -188,18 +188,17 @@ static pl_law_system system_of(const plumb_world *world, pl_law_body *bodies, ui
                             .replaces = s->replaces };
 }
 
-// Where a body of the solver is in the middle of the substep, without what laws do; one that sleeps, where it lies.
-static pl_law_state middle(const passage *p, const pl_law_body *body)
+pl_law_state pl_law_middle(const plumb_world *world, const pl_law_body *body, double h)
 {
-    const pl_bodies *b = &p->world->bodies;
+    const pl_bodies *b = &world->bodies;
     const uint32_t row = body->row;
     pl_law_state s = { (double)b->center_x[row] + (double)b->residual_x[row],
                        (double)b->center_y[row] + (double)b->residual_y[row], 0, 0 };
     if (body->slot != PL_NONE) {
-        const pl_solver_body *now = &pl_solver_bodies(&p->world->solver)[body->slot];
+        const pl_solver_body *now = &pl_solver_bodies(&world->solver)[body->slot];
         s.vx = (double)now->vx, s.vy = (double)now->vy;
-        s.x += (double)now->dx + p->h / 2 * s.vx;
-        s.y += (double)now->dy + p->h / 2 * s.vy;
+        s.x += (double)now->dx + h / 2 * s.vx;
+        s.y += (double)now->dy + h / 2 * s.vy;
     }
     return s;
 }
@@ -231,7 +230,7 @@ static void push_single(void *context, uint32_t first, uint32_t count)
         pl_law_body *body = &pl_law_bodies(p->world)[p->pushed[i].value];
         pl_law_system system = system_of(p->world, body, 1, 0);
         system.alone = true;
-        const pl_law_state state = middle(p, body);
+        const pl_law_state state = pl_law_middle(p->world, body, p->h);
         double a[2];
         pl_laws_pull(&system, &state, p->time, a);
         give(p, &system, body, &state, a);
@@ -246,7 +245,7 @@ static void push_coupled(const passage *p)
     pl_law_state *states = s->states.data;
     double *a = s->forces.data;
     for (uint32_t i = 0; i < system.count; ++i) {
-        states[i] = middle(p, &system.bodies[i]);
+        states[i] = pl_law_middle(p->world, &system.bodies[i], p->h);
     }
     pl_laws_pull(&system, states, p->time, a);
     for (uint32_t i = 0; i < system.count; ++i) {

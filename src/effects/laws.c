@@ -31,7 +31,7 @@ bool pl_want_laws(const plumb_world *world, const char **reason)
 
 bool pl_law_acts_on(const plumb_world *world, uint32_t row)
 {
-    return pl_law_way_of(world, row) == PL_LAW_PUSHED;
+    return pl_law_way_of(world, row) >= PL_LAW_PUSHED;
 }
 
 plumb_orbit_desc pl_orbits_of(const plumb_world *world)
@@ -47,8 +47,9 @@ plumb_orbit_desc pl_orbits_of(const plumb_world *world)
 void pl_laws_free(pl_memory *memory, pl_laws *laws)
 {
     pl_law_step *s = &laws->step;
-    pl_buffer *buffers[] = { &laws->items, &laws->orbits, &s->laws,   &s->ways,  &s->bodies,
-                             &s->order,    &s->states,    &s->forces, &s->table, &s->flights };
+    pl_buffer *buffers[] = { &laws->items, &laws->orbits, &s->laws,   &s->ways,
+                             &s->bodies,   &s->order,     &s->states, &s->forces,
+                             &s->table,    &s->flights,   &s->poles };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -139,12 +140,18 @@ pl_law_body pl_law_body_of(const plumb_world *world, uint32_t row)
     const pl_bodies *b = &world->bodies;
     const pl_body_settings t = pl_body_settings_get(world, row);
     const double mass = (double)b->mass[row];
+    double moment[2] = { 0, 0 };
+    if (t.dipole != 0) {
+        pl_dipole_moment(b, row, &t, moment);
+    }
     return (pl_law_body){ .row = row,
                           .slot = PL_NONE,
                           .mass = mass,
                           .weight = mass * (double)b->gravity_scale[row],
                           .charge = (double)t.charge,
                           .attraction = (double)t.attraction,
+                          .mx = moment[0],
+                          .my = moment[1],
                           .time = (double)t.time_scale,
                           .categories = categories_of(world, row) };
 }
@@ -189,11 +196,11 @@ static role role_of(const plumb_world *world, const pl_law_body *body, double dt
             r.acted_on = r.coupled = true;
             continue;
         }
-        if (pl_law_hold_of(law->desc, body) == 0) {
+        if (!pl_law_holds(law->desc, body)) {
             continue;
         }
         if (law->desc->kind == PLUMB_LAW_MUTUAL) {
-            r.source |= law->desc->hold == PLUMB_LAW_ON_CHARGE || body->attraction > 0;
+            r.source |= pl_law_is_source(law->desc, body);
             r.coupled |= r.source || is_attracted(world, law, body, dt);
             r.acted_on |= r.coupled;
             continue;
@@ -208,19 +215,20 @@ static role role_of(const plumb_world *world, const pl_law_body *body, double dt
     return r;
 }
 
-static bool is_busy(const plumb_world *world, uint32_t row)
+static pl_law_way way_of(const plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t flags = b->flags[row];
     if (b->first_joint[row] != PL_NONE || b->character[row] != 0 || (flags & PL_BODY_LOCKED) != 0) {
-        return true;
+        return PL_LAW_HELD;
     }
     if ((flags & PL_BODY_HAS_SETTINGS) == 0) {
-        return false;
+        return PL_LAW_FLIES;
     }
     const pl_body_settings t = pl_body_settings_get(world, row);
-    return t.damping > 0 || t.angular_damping > 0 || t.max_speed > 0 || t.max_spin > 0 ||
-           t.time_scale != 1 || t.drag > 0 || t.thrust > 0;
+    const bool busy = t.damping > 0 || t.angular_damping > 0 || t.max_speed > 0 || t.max_spin > 0 ||
+                      t.time_scale != 1 || t.drag > 0 || t.thrust > 0 || t.dipole != 0;
+    return busy ? PL_LAW_PUSHED : PL_LAW_FLIES;
 }
 
 // Uniform laws without end, where nothing replaces them.
@@ -257,7 +265,7 @@ static void put_bodies(plumb_world *world, double dt, int round)
         if (sleeps) { // it attracts as it lies, and wakes
             body.mass = 0;
         } else {
-            ways[row] = is_busy(world, row) ? PL_LAW_PUSHED : PL_LAW_FLIES;
+            ways[row] = (uint8_t)way_of(world, row);
         }
         body.coupled = r.coupled;
         add_endless(s, pl_laws_now(world), &body);
@@ -273,8 +281,8 @@ static void push_touching(plumb_world *world)
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const uint32_t ends[] = { m[i].body_a, m[i].body_b };
         for (int k = 0; k < 2; ++k) {
-            if (ends[k] < world->dynamic_count && ways[ends[k]] == PL_LAW_FLIES) {
-                ways[ends[k]] = PL_LAW_PUSHED;
+            if (ends[k] < world->dynamic_count && ways[ends[k]] != PL_LAW_NONE) {
+                ways[ends[k]] = PL_LAW_HELD;
             }
         }
     }
@@ -288,12 +296,14 @@ static void settle_coupled(plumb_world *world)
     pl_law_step *s = &world->laws.step;
     const pl_law_body *bodies = pl_law_bodies(world);
     uint8_t *ways = s->ways.data;
-    s->couples = false;
+    s->couples = s->dipoles = false;
     for (uint32_t i = 0; i < s->coupled_count; ++i) {
-        s->couples |= bodies[i].mass > 0 && ways[bodies[i].row] == PL_LAW_PUSHED;
+        s->dipoles |= pl_law_has_dipole(&bodies[i]);
+        s->couples |= bodies[i].mass > 0 && ways[bodies[i].row] >= PL_LAW_PUSHED;
     }
+    s->couples |= s->dipoles; // one that sleeps, too, acts in the substeps
     for (uint32_t i = 0; i < s->coupled_count && s->couples; ++i) {
-        if (bodies[i].mass > 0) {
+        if (bodies[i].mass > 0 && ways[bodies[i].row] == PL_LAW_FLIES) {
             ways[bodies[i].row] = PL_LAW_PUSHED;
         }
     }
@@ -318,7 +328,8 @@ static void name_members(plumb_world *world)
 
 //---- who wakes, who does not fall asleep ---------------------------------------------------------
 
-// Bodies that attract go on moving others, and each other; bodies that carry an attractor have its reaction.
+// Bodies that attract go on moving others, and each other; those that something holds rest while their pull is the same. Bodies that
+// carry an attractor have its reaction.
 static void heed_coupled(plumb_world *world)
 {
     const pl_law_step *s = &world->laws.step;
@@ -330,9 +341,10 @@ static void heed_coupled(plumb_world *world)
     }
     for (uint32_t i = 0; i < s->source_count; ++i) {
         const pl_law_body *body = &pl_law_bodies(world)[i];
-        if (body->mass > 0 && s->coupled_count > 1) {
+        const bool free = body->mass > 0 && pl_law_way_of(world, body->row) != PL_LAW_HELD;
+        if (free && s->coupled_count > 1) {
             world->bodies.rest_time[body->row] = PL_NOT_RESTING;
-        } else if (body->mass == 0) {
+        } else if (!free && pl_law_rest_ends(world, body)) {
             pl_sleep_disturb(world, body->row);
         }
     }
@@ -403,7 +415,7 @@ bool pl_laws_find(plumb_world *world, real dt)
     name_members(world);
     push_touching(world);
     settle_coupled(world);
-    return pl_orbits_reserve(world);
+    return pl_orbits_reserve(world) && pl_dipoles_reserve(world);
 }
 
 void pl_laws_settle(plumb_world *world)
@@ -433,7 +445,7 @@ bool pl_laws_take_slots(plumb_world *world)
     }
     for (uint32_t i = 0; i < s->body_count; ++i) {
         pl_law_body *body = &pl_law_bodies(world)[i];
-        if (body->mass == 0 || pl_law_way_of(world, body->row) != PL_LAW_PUSHED) {
+        if (body->mass == 0 || pl_law_way_of(world, body->row) < PL_LAW_PUSHED) {
             continue;
         }
         body->slot = slots[body->row];

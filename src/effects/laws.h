@@ -50,12 +50,36 @@ static inline bool pl_law_is_endless(const plumb_law_desc *d)
            d->half.x == 0;
 }
 
+static inline bool pl_law_names(const plumb_law_desc *d, const pl_law_body *body)
+{
+    return d->categories == 0 || (d->categories & body->categories) != 0;
+}
+
 // [kg] or [C] by which a law takes hold of a body; 0: it does not.
 static inline double pl_law_hold_of(const plumb_law_desc *d, const pl_law_body *body)
 {
-    const bool named = d->categories == 0 || (d->categories & body->categories) != 0;
     const bool charge = d->hold == PLUMB_LAW_ON_CHARGE || d->kind == PLUMB_LAW_MAGNETIC;
-    return !named ? 0 : charge ? body->charge : body->weight;
+    return !pl_law_names(d, body) ? 0 : charge ? body->charge : body->weight;
+}
+
+static inline bool pl_law_has_dipole(const pl_law_body *body)
+{
+    return body->mx != 0 || body->my != 0;
+}
+
+// By its mass, its charge or its dipole.
+static inline bool pl_law_holds(const plumb_law_desc *d, const pl_law_body *body)
+{
+    return pl_law_hold_of(d, body) != 0 ||
+           (pl_law_has_dipole(body) && d->hold == PLUMB_LAW_ON_CHARGE &&
+            d->kind != PLUMB_LAW_MAGNETIC && pl_law_names(d, body));
+}
+
+// By a mutual law it attracts, or repels, whatever that holds.
+static inline bool pl_law_is_source(const plumb_law_desc *d, const pl_law_body *body)
+{
+    return d->kind == PLUMB_LAW_MUTUAL && pl_law_holds(d, body) &&
+           (d->hold == PLUMB_LAW_ON_CHARGE || body->attraction > 0);
 }
 
 //---- law_forces.c --------------------------------------------------------------------------------
@@ -85,6 +109,44 @@ bool pl_law_reaches(const pl_law_now *law, double dx, double dy);
 double pl_law_falloff(const pl_law_now *law, double square);
 // How strongly two bodies attract each other by a mutual law; below 0 they repel.
 double pl_law_pair(const pl_law_now *law, const pl_law_body *a, const pl_law_body *b);
+// Where a body of the solver is in the middle of a substep of h [s], without what laws do; one that sleeps, where it lies.
+pl_law_state pl_law_middle(const plumb_world *world, const pl_law_body *body, double h);
+
+//---- dipoles.c -----------------------------------------------------------------------------------
+
+// A body at a place and an angle.
+typedef struct pl_pole {
+    const pl_law_body *body;
+    double x, y;   // [m]
+    double mx, my; // [C m] of its dipole, along the world's axes
+} pl_pole;
+
+// What laws give a body for its dipole, or for those of others: beyond what charges do to each other.
+typedef struct pl_dipole_push {
+    double fx, fy;         // [N]; of a pair on the second, and the first has the opposite
+    double torque, answer; // [N m] of a pair on the second; on the first
+} pl_dipole_push;
+
+// Room for poles of coupled bodies. False when out of memory.
+bool pl_dipoles_reserve(plumb_world *world);
+// [C m] moment of a body of a record, along the world's axes.
+void pl_dipole_moment(const pl_bodies *bodies, uint32_t row, const pl_body_settings *record,
+                      double out[2]);
+// As its columns have it.
+pl_pole pl_pole_of(const plumb_world *world, const pl_law_body *body);
+// Between two bodies, by a mutual law on charge; nothing by another, or where neither has a dipole.
+pl_dipole_push pl_dipole_pair(const pl_law_now *law, const pl_pole *a, const pl_pole *b);
+// From a uniform law or an attractor on charge that is at a place; nothing from another. Whether its zone reaches so far is
+// not asked.
+pl_dipole_push pl_dipole_in(const pl_law_now *law, const pl_pole *pole, double x, double y);
+// [J] of the same, where the law has a potential (law_field.c).
+double pl_dipole_energy(const pl_law_now *law, const pl_pole *a, const pl_pole *b);
+double pl_dipole_energy_in(const pl_law_now *law, const pl_pole *pole);
+
+//---- law_rest.c ----------------------------------------------------------------------------------
+
+// The pull of other bodies on one that attracts is not the one under which it rests; from now on it is.
+bool pl_law_rest_ends(plumb_world *world, const pl_law_body *body);
 
 //---- law_field.c ---------------------------------------------------------------------------------
 

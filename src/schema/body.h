@@ -70,6 +70,10 @@
       "that breaking takes from the hit; dynamic bodies")                                          \
     R(X, RECORD, REAL, break_cells, SAID(break_cells), "1", FROM(0, 64), 0, NO_ZERO,                \
       "parts that it breaks into at most; 0: twelve; dynamic bodies")                               \
+    R(X, RECORD, REAL, dipole, SAID(dipole), "C m", FROM(-1e9, 1e9), 0, NO_ZERO,                    \
+      "moment of a dipole or magnet, which laws on charge turn; dynamic bodies")                    \
+    R(X, RECORD, REAL, dipole_angle, SAID(dipole_angle), "rad", FROM(-1e9, 1e9), 0, NO_ZERO,        \
+      "whereto its dipole points, from the x axis of its frame; dynamic bodies")                    \
     R(X, HEAT, REAL, temperature, SAID(temperature), "K", FROM(0, 1e6), 0, NO_ZERO,                 \
       "of all of it; 0: it takes no part in heat. Bodies that are not dynamic hold it")             \
     R(X, HEAT, REAL, heat_capacity, SAID(heat_capacity), "J/(kg K)", ABOVE(0, 1e9), 1000, NO_ZERO,  \

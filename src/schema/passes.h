@@ -117,6 +117,8 @@
       "", "", ONE)                                                                                                                           \
     X("fluid forces",        MOMENT,      IF(pl_want_fluids),           ACTS(pl_fluid_row, pl_fluid_acts_on),                    ONCE,              \
       "solver bodies, poses, velocities, pieces, materials", "accelerations, islands", ONE)                                                                  \
+    X("dipoles",           MOMENT,      IF(pl_want_dipoles),         EACH(pl_dipole_row),                                    ONCE,           \
+      "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("law forces",        MOMENT,      IF(pl_want_laws),            ACTS(pl_law_row, pl_law_acts_on),                       ONCE,           \
       "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("soft forces",       MOMENT,      IF(pl_want_softbodies),      ACTS(pl_softbodies_row, pl_softbodies_act_on),          ONCE,           \

@@ -177,8 +177,8 @@ static bool check_settings(const pl_suspect *s)
 {
     const pl_body_settings_list *all = &s->world.settings;
     const pl_body_settings *items = all->items.data;
-    uint32_t damped = 0, dragged = 0, engines = 0, breakable = 0, capped = 0, scaled = 0,
-             frozen = 0;
+    uint32_t damped = 0, dragged = 0, engines = 0, breakable = 0, dipoles = 0, capped = 0,
+             scaled = 0, frozen = 0;
     for (uint32_t i = 0; i < all->count; ++i) {
         if (!check_settings_of(s, &items[i], i)) {
             return false;
@@ -187,13 +187,14 @@ static bool check_settings(const pl_suspect *s)
         dragged += items[i].drag > 0;
         engines += items[i].thrust > 0;
         breakable += items[i].break_force > 0 || items[i].break_impulse > 0;
+        dipoles += items[i].dipole != 0;
         capped += items[i].max_speed > 0 || items[i].max_spin > 0;
         scaled += items[i].time_scale != 1;
         frozen += items[i].time_scale == 0;
     }
     return damped == all->damped && dragged == all->dragged && engines == all->engines &&
-           breakable == all->breakable && capped == all->capped && scaled == all->scaled &&
-           frozen == all->frozen;
+           breakable == all->breakable && dipoles == all->dipoles && capped == all->capped &&
+           scaled == all->scaled && frozen == all->frozen;
 }
 
 static bool check_track(const pl_track *track)

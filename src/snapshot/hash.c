@@ -136,14 +136,15 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
     }
 }
 
-// What few of the few that have settings have: charge and attraction, drag, engines, breaking. Where one is nowhere, hashes are what they
-// were before it was known.
+// What few of the few that have settings have: charge and attraction, drag, engines, breaking, dipoles and what bodies rest under. Where
+// one is nowhere, hashes are what they were before it was known.
 static void add_holds(pl_digest *digest, const plumb_world *world)
 {
     static const char none[sizeof(pl_body_settings)] = { 0 };
     const pl_body_settings *items = world->settings.items.data;
     const size_t charge = PL_SETTINGS_HASHED, drag = PL_SETTINGS_DRAG, engine = PL_SETTINGS_ENGINE,
-                 breaks = PL_SETTINGS_BREAK, low = PL_SETTINGS_LOW, end = sizeof *items;
+                 breaks = PL_SETTINGS_BREAK, dipole = PL_SETTINGS_DIPOLE, low = PL_SETTINGS_LOW,
+                 pull = PL_SETTINGS_PULL, end = sizeof *items;
     for (uint32_t i = 0; i < world->settings.count; ++i) {
         const char *from = (const char *)&items[i];
         if (memcmp(from + charge, none, end - charge) == 0) {
@@ -152,18 +153,24 @@ static void add_holds(pl_digest *digest, const plumb_world *world)
         pl_digest_add(digest, &items[i].body, sizeof items[i].body);
         pl_digest_add(digest, from + charge, drag - charge);
         const bool burns = memcmp(from + engine, none, breaks - engine) != 0 ||
-                           memcmp(from + low, none, end - low) != 0;
+                           memcmp(from + low, none, pull - low) != 0;
         if (burns || memcmp(from + drag, none, engine - drag) != 0) {
             pl_digest_add(digest, from + drag, engine - drag);
         }
         if (burns) {
             char all[sizeof *items]; // as one, as they once lay
             memcpy(all, from + engine, breaks - engine);
-            memcpy(all + (breaks - engine), from + low, end - low);
-            pl_digest_add(digest, all, breaks - engine + (end - low));
+            memcpy(all + (breaks - engine), from + low, pull - low);
+            pl_digest_add(digest, all, breaks - engine + (pull - low));
         }
-        if (memcmp(from + breaks, none, low - breaks) != 0) {
-            pl_digest_add(digest, from + breaks, low - breaks);
+        if (memcmp(from + breaks, none, dipole - breaks) != 0) {
+            pl_digest_add(digest, from + breaks, dipole - breaks);
+        }
+        if (memcmp(from + dipole, none, low - dipole) != 0) {
+            pl_digest_add(digest, from + dipole, low - dipole);
+        }
+        if (memcmp(from + pull, none, end - pull) != 0) {
+            pl_digest_add(digest, from + pull, end - pull);
         }
     }
 }

@@ -206,7 +206,7 @@
 
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
     ARRAY(pl_body_settings, settings.items, settings.count, PL_SETTINGS_HASHED, 8)                     \
-    TALLY(settings.dragged) TALLY(settings.engines) TALLY(settings.breakable) VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
+    TALLY(settings.dragged) TALLY(settings.engines) TALLY(settings.breakable) TALLY(settings.dipoles) VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
     ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)                           \
     ARRAY(pl_track, tracks.items, tracks.count, sizeof(pl_track), 8)
 

@@ -45,6 +45,7 @@ typedef struct row_rule {
 static const row_rule rules[] = {
     { pl_damping_row, ROW_DAMPING, PLUMB_WORK_DAMPING },
     { pl_fluid_row, ROW_MOMENT, PLUMB_WORK_FLUIDS },
+    { pl_dipole_row, ROW_MOMENT, PLUMB_WORK_LAWS },
     { pl_law_row, ROW_MOMENT, PLUMB_WORK_LAWS },
     { pl_softbodies_row, ROW_MOMENT, PLUMB_WORK_SOFT },
     { pl_thrust_row, ROW_MOMENT, PLUMB_WORK_THRUST },

@@ -56,6 +56,7 @@ static void count(pl_body_settings_list *settings, const pl_body_settings *t, ui
     settings->dragged += t->drag > 0 ? by : 0;
     settings->engines += t->thrust > 0 ? by : 0;
     settings->breakable += is_breakable(t) ? by : 0;
+    settings->dipoles += t->dipole != 0 ? by : 0;
     settings->capped += is_capped(t) ? by : 0;
     settings->scaled += t->time_scale != 1 ? by : 0;
     settings->frozen += t->time_scale == 0 ? by : 0;

@@ -61,6 +61,7 @@ static void destroy_body(plumb_world *world, plumb_body body)
         pl_joint_remove(world, world->bodies.first_joint[row]);
     }
     if (world->laws.count > 0) {
+        pl_laws_miss(world, row);
         pl_laws_forget(world, body);
     }
     pl_softbodies_forget(world, body);

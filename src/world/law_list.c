@@ -3,6 +3,7 @@
 // Reads, writes: the list, the registry. Cost: O(laws); to wake O(bodies).
 #include "world/law_list.h"
 
+#include "world/body_settings.h"
 #include "world/island.h"
 #include "world/rows.h"
 
@@ -21,7 +22,7 @@ void pl_law_disturb(plumb_world *world, const plumb_law_desc *d)
 {
     const double half = (double)(d->half.x + d->half.y);
     const double reach = half > 0 ? half : (double)d->radius;
-    if (!(reach > 0) || !plumb_is_null(d->body)) {
+    if (!(reach > 0) || !plumb_is_null(d->body) || d->kind == PLUMB_LAW_MUTUAL) {
         pl_sleep_disturb_all(world);
         return;
     }
@@ -46,6 +47,20 @@ void pl_law_remove(plumb_world *world, uint32_t row)
         pl_registry_move(&world->registry, items[i].entity.entity.index, i);
     }
     world->schedule_dirty = true;
+}
+
+void pl_laws_miss(plumb_world *world, uint32_t row)
+{
+    const pl_body_settings t = pl_body_settings_get(world, row);
+    for (uint32_t i = 0; i < world->laws.count; ++i) {
+        const plumb_law_desc *d = &pl_law_items(&world->laws)[i].desc;
+        const bool holds =
+            d->hold == PLUMB_LAW_ON_CHARGE ? t.charge != 0 || t.dipole != 0 : t.attraction > 0;
+        if (d->kind == PLUMB_LAW_MUTUAL && holds) {
+            pl_sleep_disturb_all(world);
+            return;
+        }
+    }
 }
 
 void pl_laws_forget(plumb_world *world, plumb_body body)

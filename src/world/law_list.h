@@ -10,6 +10,8 @@ uint32_t pl_law_find(const plumb_world *world, plumb_law law);
 void pl_law_remove(plumb_world *world, uint32_t row);
 // The body of a row goes, and the laws that it carries.
 void pl_laws_forget(plumb_world *world, plumb_body body);
+// A body of a row leaves those that it may attract by mutual laws: they wake.
+void pl_laws_miss(plumb_world *world, uint32_t row);
 // What sleeps and may be acted on wakes; what rests begins anew.
 void pl_law_disturb(plumb_world *world, const plumb_law_desc *desc);
 

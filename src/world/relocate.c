@@ -3,6 +3,7 @@
 // Reads, writes: one row, its pieces, joints and sleeping contacts. Cost: O(pieces and joints of the body).
 #include "world/island.h"
 #include "world/joint_list.h"
+#include "world/law_list.h"
 #include "world/rows.h"
 #include "world/stale_edges.h"
 
@@ -13,6 +14,9 @@ void pl_body_relocate(plumb_world *world, uint32_t row)
     b->flags[row] &= (uint16_t)~PL_BODY_DROPPING; // who does not move has nothing to drop through
     pl_sleep_stir(world, row);
     pl_sleep_forget(world, row);
+    if (world->laws.count > 0) {
+        pl_laws_miss(world, row);
+    }
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_sleep_void_contacts(world, p);
         pl_internal_edges_forget(world, p);

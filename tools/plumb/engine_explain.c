@@ -24,6 +24,7 @@ typedef enum cause {
     FLUIDS,
     DAMPED,
     DRAGGED,
+    DIPOLES,
     THRUSTING,
     HEATED, ///< with a temperature, or that grow
     CAPPED,
@@ -76,6 +77,7 @@ static const struct reason {
     { "laws", MOVING, SAME },
     { "law slots", MOVING, SAME },
     { "law forces", MOVING, SAME },
+    { "dipoles", DIPOLES, SAME },
     { "orbits", MOVING, SAME },
     { "called", NOBODY, BODIES },
     { "graph", SOLID, BODIES },
@@ -202,6 +204,8 @@ static bool is_one(engine_stage *stage, plumb_body b, cause who)
         return plumb_body_damping(w, b) > 0 || plumb_body_angular_damping(w, b) > 0;
     case DRAGGED:
         return plumb_body_drag(w, b) > 0;
+    case DIPOLES:
+        return plumb_body_dipole(w, b) != 0;
     case THRUSTING:
         return plumb_body_thrust(w, b) > 0;
     case HEATED:

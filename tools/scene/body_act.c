@@ -47,6 +47,8 @@ static int method_teleport(lua_State *L)
     X(burn_rate)                                                                                   \
     X(charge)                                                                                      \
     X(conductance)                                                                                 \
+    X(dipole)                                                                                      \
+    X(dipole_angle)                                                                                \
     X(drag)                                                                                        \
     X(emissivity)                                                                                  \
     X(exhaust)                                                                                     \

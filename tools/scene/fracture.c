@@ -119,6 +119,7 @@ static void reread(const scene *s, sc_body *b)
     REREAD(mass);
     REREAD(inertia);
     REREAD(charge);
+    REREAD(dipole);
     REREAD(drag);
     REREAD(fuel);
     REREAD(thrust);

@@ -15,14 +15,13 @@ int sc_axis_bit(const char *name)
 }
 
 static const char *const dynamic_rows[] = {
-    "ambient",       "angular_damping", "attraction",     "break_cells",
-    "break_energy",  "break_force",     "break_impulse",  "burn_heat",
-    "burn_rate",     "charge",          "damping",        "drag",
-    "emissivity",    "exhaust",         "fixed_rotation", "fuel",
-    "gravity_scale", "heat_capacity",   "heating",        "ignition",
-    "inertia",       "latent_heat",     "lock",           "mass",
-    "max_speed",     "max_spin",        "melt_phase",     "melting_point",
-    "thrust",        "thrust_angle",    "thrust_x",       "thrust_y"
+    "ambient",     "angular_damping", "attraction",   "break_cells",   "break_energy",
+    "break_force", "break_impulse",   "burn_heat",    "burn_rate",     "charge",
+    "damping",     "dipole",          "dipole_angle", "drag",          "emissivity",
+    "exhaust",     "fixed_rotation",  "fuel",         "gravity_scale", "heat_capacity",
+    "heating",     "ignition",        "inertia",      "latent_heat",   "lock",
+    "mass",        "max_speed",       "max_spin",     "melt_phase",    "melting_point",
+    "thrust",      "thrust_angle",    "thrust_x",     "thrust_y"
 };
 
 bool sc_motion_is_dynamic(const char *row)

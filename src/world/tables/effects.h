@@ -14,6 +14,8 @@ typedef struct pl_body_settings {
     PL_BODY_ROWS(PL_ROW_RECORD, PL_SETTINGS_MEMBER)
     real fuel_low, mass_low; // [kg] what rounding took from what is left, of an engine that burns
 #define PL_SETTINGS_LOW offsetof(pl_body_settings, fuel_low)
+    real pull_x, pull_y, pull_tip; // [m/s^2] of mutual laws, under which it rests (effects/law_rest.c)
+#define PL_SETTINGS_PULL offsetof(pl_body_settings, pull_x)
 } pl_body_settings;
 
 #define PL_SETTINGS_SAVED sizeof(pl_body_settings)
@@ -22,11 +24,12 @@ typedef struct pl_body_settings {
 #define PL_SETTINGS_DRAG   offsetof(pl_body_settings, drag)
 #define PL_SETTINGS_ENGINE offsetof(pl_body_settings, thrust)
 #define PL_SETTINGS_BREAK  offsetof(pl_body_settings, break_force)
+#define PL_SETTINGS_DIPOLE offsetof(pl_body_settings, dipole)
 
 typedef struct pl_body_settings_list {
     pl_buffer items; // pl_body_settings, no order
     uint32_t count;
-    uint32_t damped, dragged, engines, breakable, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
+    uint32_t damped, dragged, engines, breakable, dipoles, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
 } pl_body_settings_list;
 
 // Where a kinematic body is to be in a while.

@@ -29,8 +29,9 @@ typedef struct pl_law_now {
 // How a body gets what the laws give it in this step.
 typedef enum pl_law_way {
     PL_LAW_NONE,  // nothing acts on it
-    PL_LAW_FLIES, // by itself (orbits.c)
-    PL_LAW_PUSHED // in the substeps
+    PL_LAW_FLIES,  // by itself (orbits.c)
+    PL_LAW_PUSHED, // in the substeps
+    PL_LAW_HELD    // likewise, by a contact, a joint or a lock: it may come to rest
 } pl_law_way;
 
 // A body that laws act on, in a step.
@@ -40,6 +41,7 @@ typedef struct pl_law_body {
     double weight;       // [kg] mass times gravity scale
     double charge;       // [C]
     double attraction;   // [-]
+    double mx, my;       // [C m] of its dipole, along the world's axes as the step begins
     double time;         // [-] its time scale
     uint64_t categories; // of its shapes
     double ax, ay;       // [m/s^2] of forces; of gravity and of uniform laws without end, where nothing replaces them
@@ -60,10 +62,12 @@ typedef struct pl_law_step {
     pl_buffer order;  // pl_keyed: slot and place among the bodies that are pushed
     pl_buffer states, forces, table; // pl_law_state; plumb doubles; rows of extrapolations
     pl_buffer flights;               // pl_flight a dynamic row, of those that fly
+    pl_buffer poles;                 // pl_pole a coupled body (effects/dipoles.c)
     uint32_t law_count, body_count, coupled_count, source_count, pushed_count;
     bool replaces; // some law does
     bool flies;    // some body does
     bool couples;  // coupled bodies are pushed
+    bool dipoles;  // some coupled body has a dipole
     double time;   // [s] of the step
 } pl_law_step;
 
