@@ -1,14 +1,19 @@
-// law_rest.c - rest under mutual laws: who attracts others and is held by something is at rest while their pull on it stays.
+// law_rest.c - rest under laws: who attracts others and is held by something rests while their pull on it stays.
 //
-// The pull that others give a body is taken down when it begins to rest. It is the same while it differs by less than what samples
-// of rest do not see (world/push.c), or by less than that share of it by which bodies that count as at rest may move: PL_EVEN. Changes
-// that creep add up, as of forces, since it is compared with what was taken down, asleep and awake. So a chain of magnets falls
-// asleep, and wakes when another comes near, turns, changes, or goes.
+// Bodies that attract go on moving others, and each other, so those that nothing holds never rest. The pull on one that a contact,
+// a joint or a lock holds is taken down. It is the same while it differs by less than what samples of rest do not see
+// (world/push.c), or by less than that share of it by which bodies that count as at rest may move: PL_EVEN. Changes that creep add
+// up, as of forces, since the pull is compared with what was taken down, awake and asleep. So a chain of magnets falls asleep, and
+// wakes when another comes near, turns, changes or goes.
 //
-// Reads: laws and bodies of the step. Writes: records of bodies. Order: when nothing can fail any more. Cost: O(those that attract
-// and are held x all that are coupled).
+// A needle on a pin that is damped creeps to where it belongs, slow and even as what rests is, and nothing but the field stops it: it
+// rests when it stands still, as what floats does.
+//
+// Reads: laws and bodies of the step. Writes: records of bodies, times of rest. Order: when nothing can fail any more. Cost:
+// O(those that attract and are held x all that are coupled).
 #include "effects/laws.h"
 
+#include "world/island.h"
 #include "world/push.h"
 
 #include <math.h>
@@ -45,7 +50,8 @@ static pull pull_on(const plumb_world *world, const pl_law_body *body)
     return p;
 }
 
-bool pl_law_rest_ends(plumb_world *world, const pl_law_body *body)
+// The pull is not the one under which it rests; from now on it is.
+static bool is_pulled_anew(plumb_world *world, const pl_law_body *body)
 {
     // Who attracts has a record: of a charge, a dipole, an attraction.
     pl_body_settings *t =
@@ -61,4 +67,27 @@ bool pl_law_rest_ends(plumb_world *world, const pl_law_body *body)
     }
     t->pull_x = (real)now.x, t->pull_y = (real)now.y, t->pull_tip = (real)now.tip;
     return true;
+}
+
+void pl_law_rest(plumb_world *world)
+{
+    const pl_law_step *s = &world->laws.step;
+    real *rest_time = world->bodies.rest_time;
+    for (uint32_t i = 0; i < s->source_count; ++i) {
+        const pl_law_body *body = &pl_law_bodies(world)[i];
+        const bool free = body->mass > 0 && pl_law_way_of(world, body->row) < PL_LAW_HELD;
+        if (free && s->coupled_count > 1) {
+            rest_time[body->row] = PL_NOT_RESTING;
+        } else if (!free && is_pulled_anew(world, body)) {
+            pl_sleep_disturb(world, body->row);
+        }
+    }
+    for (uint32_t i = 0; i < s->body_count && world->settings.dipoles > 0; ++i) {
+        const pl_law_body *body = &pl_law_bodies(world)[i];
+        if (body->mass > 0 && pl_law_has_dipole(body) &&
+            pl_law_way_of(world, body->row) < PL_LAW_TOUCHES &&
+            !pl_stands_still(world, body->row)) {
+            rest_time[body->row] = PL_NOT_RESTING;
+        }
+    }
 }

@@ -282,7 +282,7 @@ static void push_touching(plumb_world *world)
         const uint32_t ends[] = { m[i].body_a, m[i].body_b };
         for (int k = 0; k < 2; ++k) {
             if (ends[k] < world->dynamic_count && ways[ends[k]] != PL_LAW_NONE) {
-                ways[ends[k]] = PL_LAW_HELD;
+                ways[ends[k]] = PL_LAW_TOUCHES;
             }
         }
     }
@@ -328,24 +328,14 @@ static void name_members(plumb_world *world)
 
 //---- who wakes, who does not fall asleep ---------------------------------------------------------
 
-// Bodies that attract go on moving others, and each other; those that something holds rest while their pull is the same. Bodies that
-// carry an attractor have its reaction.
-static void heed_coupled(plumb_world *world)
+// Bodies that carry an attractor have its reaction.
+static void heed_carriers(plumb_world *world)
 {
     const pl_law_step *s = &world->laws.step;
     for (uint32_t i = 0; i < s->law_count; ++i) {
         const uint32_t carrier = pl_laws_now(world)[i].carrier;
         if (carrier != PL_NONE && s->coupled_count > 1) {
             world->bodies.rest_time[carrier] = PL_NOT_RESTING;
-        }
-    }
-    for (uint32_t i = 0; i < s->source_count; ++i) {
-        const pl_law_body *body = &pl_law_bodies(world)[i];
-        const bool free = body->mass > 0 && pl_law_way_of(world, body->row) != PL_LAW_HELD;
-        if (free && s->coupled_count > 1) {
-            world->bodies.rest_time[body->row] = PL_NOT_RESTING;
-        } else if (!free && pl_law_rest_ends(world, body)) {
-            pl_sleep_disturb(world, body->row);
         }
     }
 }
@@ -368,7 +358,8 @@ static void heed(plumb_world *world)
             pl_sleep_disturb(world, sleeping + i);
         }
     }
-    heed_coupled(world);
+    heed_carriers(world);
+    pl_law_rest(world);
 }
 
 //---- the step ------------------------------------------------------------------------------------

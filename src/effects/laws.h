@@ -145,8 +145,8 @@ double pl_dipole_energy_in(const pl_law_now *law, const pl_pole *pole);
 
 //---- law_rest.c ----------------------------------------------------------------------------------
 
-// The pull of other bodies on one that attracts is not the one under which it rests; from now on it is.
-bool pl_law_rest_ends(plumb_world *world, const pl_law_body *body);
+// When nothing can fail any more: who attracts others, or has a dipole, and does not come to rest, or wakes.
+void pl_law_rest(plumb_world *world);
 
 //---- law_field.c ---------------------------------------------------------------------------------
 

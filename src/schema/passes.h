@@ -172,7 +172,7 @@
     X("store contacts",    STORE,       IF(pl_want_collision),       THREE(pl_soft_store, pl_classic_store, pl_classic_store), ONCE,           \
       "constraints", "pairs, manifolds", ONE)                                                                                                \
     X("orbits",            FINISH,      IF(pl_want_laws),            ONCE(pl_run_orbits),                                    ONCE,           \
-      "poses, velocities, forces, masses, body settings", "islands", ONE)                                                                           \
+      "poses, velocities, forces, masses, body settings", "islands, body settings", ONE)                                                                           \
     X("motion",            FINISH,      ALWAYS,                      ONCE(pl_run_motion),                                    ONCE,           \
       "solver bodies, forces, masses", "poses, velocities, forces, movers, time", HAS(pl_motion_variants))                                   \
     X("continuous",        FINISH,      IF(pl_want_continuous),      ONCE(pl_run_continuous),                                ONCE,           \

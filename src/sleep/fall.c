@@ -140,12 +140,6 @@ static uint32_t leave_out_pushed_by_characters(plumb_world *world)
     return count;
 }
 
-static bool stands_still(const plumb_world *world, uint32_t row)
-{
-    const real still = PL_STILL * world->desc.sleep_speed;
-    return pl_square_speed(&world->bodies, row) <= still * still;
-}
-
 // What keeps a member awake keeps its island; what floats is kept by its own motion.
 static void hold_islands(plumb_world *world)
 {
@@ -158,7 +152,7 @@ static void hold_islands(plumb_world *world)
     }
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         if (parents[row] != PL_NONE && !(held[parents[row]] & PL_ANCHORED) &&
-            !stands_still(world, row)) {
+            !pl_stands_still(world, row)) {
             held[parents[row]] |= PL_HELD;
         }
     }

@@ -3,6 +3,7 @@
 #define PL_FALL_H
 
 #include "sleep/sleep.h"
+#include "world/push.h"
 #include "world/softbody_list.h"
 #include "world/state.h"
 
@@ -18,19 +19,9 @@ void pl_rest_around_changed(plumb_world *world, uint32_t pair_count);
 // Rested for two samples, half of sleep_time each.
 bool pl_is_rested(const plumb_world *world, uint32_t row);
 
-// [m^2/s^2] of its farthest point.
-static inline plumb_real pl_square_speed(const pl_bodies *b, uint32_t row)
-{
-    const plumb_real tip = b->w[row] * b->extent[row];
-    return b->vx[row] * b->vx[row] + b->vy[row] * b->vy[row] + tip * tip;
-}
-
 //---- islands (fall.c) ----------------------------------------------------------------------------
 //
 // Members are rows that are awake and dynamic, and behind them the soft bodies: who is a candidate has a parent.
-
-// [-] of sleep_speed, below which what floats stands still: by default 3 mm a minute.
-#define PL_STILL ((plumb_real)1e-3)
 
 // Of a member, in `held`.
 #define PL_HELD     1u // something keeps it awake

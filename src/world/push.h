@@ -5,6 +5,22 @@
 #include "world/state.h"
 
 #define PL_EVEN ((real)0.02) // [-] of sleep_speed * sleep_time, by which ways may differ
+// [-] of sleep_speed, below which what floats stands still: by default 3 mm a minute.
+#define PL_STILL ((real)1e-3)
+
+// [m^2/s^2] of its farthest point.
+static inline real pl_square_speed(const pl_bodies *b, uint32_t row)
+{
+    const real tip = b->w[row] * b->extent[row];
+    return b->vx[row] * b->vx[row] + b->vy[row] * b->vy[row] + tip * tip;
+}
+
+static inline bool pl_stands_still(const plumb_world *world, uint32_t row)
+{
+    const real still = PL_STILL * world->desc.sleep_speed;
+    return pl_square_speed(&world->bodies, row) <= still * still;
+}
+
 // A call is about to push the awake or sleeping body of a row.
 void pl_sleep_push(plumb_world *world, uint32_t row);
 // Force columns are handed out: they may be written until the next step is over.

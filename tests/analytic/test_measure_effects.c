@@ -61,6 +61,18 @@ static void add_law(scene *s)
     plumb_law_create(s->world, &(plumb_law_desc){ .kind = PLUMB_LAW_UNIFORM, .vector = { 4, 0 } });
 }
 
+// A magnet that points the same way draws it along.
+static void add_magnet(scene *s)
+{
+    plumb_law_create(s->world, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR,
+                                                  .hold = PLUMB_LAW_ON_CHARGE,
+                                                  .falloff = PLUMB_FALLOFF_INVERSE,
+                                                  .position = { 4, R(0.5) },
+                                                  .strength = 50 });
+    plumb_body_set_dipole(s->world, s->crate, 100);
+    plumb_body_set_dipole_angle(s->world, s->crate, R(0.2));
+}
+
 static void add_thrust(scene *s)
 {
     plumb_body_set_thrust(s->world, s->crate, 600);
@@ -107,6 +119,7 @@ typedef struct driver {
 static const driver drivers[] = {
     { "wind", add_wind, PLUMB_WORK_FLUIDS, false },
     { "a law", add_law, PLUMB_WORK_LAWS, false },
+    { "a dipole", add_magnet, PLUMB_WORK_LAWS, false },
     { "an engine", add_thrust, PLUMB_WORK_THRUST, false },
     { "a rope", add_rope, PLUMB_WORK_SOFT, false },
     { "liquid", add_liquid, PLUMB_WORK_LIQUID, false },

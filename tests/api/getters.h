@@ -29,6 +29,8 @@
     X(plumb_body_max_spin, plumb_body_max_spin(w, h))                                               \
     X(plumb_body_charge, plumb_body_charge(w, h))                                                   \
     X(plumb_body_attraction, plumb_body_attraction(w, h))                                           \
+    X(plumb_body_dipole, plumb_body_dipole(w, h))                                                   \
+    X(plumb_body_dipole_angle, plumb_body_dipole_angle(w, h))                                       \
     X(plumb_body_drag, plumb_body_drag(w, h))                                                       \
     X(plumb_body_thrust, plumb_body_thrust(w, h)) \
     X(plumb_body_exhaust, plumb_body_exhaust(w, h)) \

@@ -136,7 +136,7 @@ static void list_is_one_item_a_line(void **state)
     assert_int_equal(count_lines(out), passes);
     assert_non_null(strstr(out, "\n  classic solver\n"));
     expect_code("\"$P\" list overlays", 0);
-    assert_int_equal(count_lines(out), 1 + 16);
+    assert_int_equal(count_lines(out), 1 + 17);
     assert_non_null(strstr(out, "\n  contacts\n"));
     expect_code("\"$P\" list scene --brief", 0);
     assert_int_equal(count_lines(out), 1 + 56);

@@ -767,6 +767,8 @@ static void change_laws(session *s)
         .half = zone && one_in(s, 2) ? plumb_v2(3, 2) : plumb_v2(0, 0)
     };
     plumb_body_set_charge(w, body, number(s, -1, 1));
+    plumb_body_set_dipole(w, s->body[pick(s, SESSION_BODIES)], number(s, R(-0.2), R(0.2)));
+    plumb_body_set_dipole_angle(w, body, number(s, -3, 3));
     plumb_body_set_attraction(w, body, one_in(s, 2) ? 1 : 0);
     plumb_world_set_orbits(w,
                            &(plumb_orbit_desc){ one_in(s, 2) ? 4 : 2, one_in(s, 3) ? R(1e-4) : 0 });

@@ -46,6 +46,7 @@ static const setter setters[] = {
     { plumb_body_set_thrust_angle, -3, 3 },   { plumb_body_set_inertia, 0.01, 3 },
     { plumb_body_set_gravity_scale, -1, 2 },  { plumb_body_set_break_energy, 0, 2 },
     { plumb_body_set_break_impulse, 0, 1 },   { plumb_body_set_charge, -1, 1 },
+    { plumb_body_set_dipole, -0.3, 0.3 },     { plumb_body_set_dipole_angle, -3, 3 },
     { plumb_body_set_angle, -9, 9 },          { plumb_body_set_angular_velocity, -9, 9 },
 };
 

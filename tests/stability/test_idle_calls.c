@@ -51,6 +51,7 @@ IDLE(speed_cap, plumb_body_set_speed_cap(w, b, 0, 0))
 IDLE(time_scale, plumb_body_set_time_scale(w, b, 1))
 IDLE(gravity_scale, plumb_body_set_gravity_scale(w, b, 1))
 IDLE(charge, plumb_body_set_charge(w, b, 0))
+IDLE(dipole, plumb_body_set_dipole(w, b, 0))
 IDLE(locks, plumb_body_set_locks(w, b, (plumb_axis_locks){ .x = false }))
 IDLE(rotation, plumb_body_set_fixed_rotation(w, b, false))
 IDLE(continuous, plumb_body_set_continuous(w, b, false))
@@ -119,6 +120,7 @@ static const struct {
     ROW(gravity),       ROW(measured),
     ROW(watched),       ROW(saved_and_restored),
     ROW(asked),         ROW(another_comes_and_goes),
+    ROW(dipole),
 };
 
 // `which`: -1 for nothing. Every so many steps, but not before the first: a step of no time that finds new bodies lists pairs by boxes

@@ -165,6 +165,37 @@ static void test_field_is_arrows(void **state)
     render_target_destroy(target);
 }
 
+// A needle, red ahead and blue behind, on top of its body.
+static void test_dipoles_point(void **state)
+{
+    (void)state;
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 }; // 60 px a metre
+    render_frame *frame = new_frame();
+    render_options options = flat();
+    render_body_begin(frame, &(render_style){ .color = white });
+    render_add_box(frame, 0.0, 0.0, 1.0, 0.5, 0.0, 0.0);
+    render_body_end(frame);
+    assert_int_equal(render_add_dipole(frame, 0.0, 0.0, 0.8, 0.0, 0.2), RENDER_OK);
+    options.show = RENDER_SHOW_NOTHING;
+    draw(target, frame, camera, options);
+    assert_memory_equal(pixel(target, 180, 120), &white, 4);
+    options.show = RENDER_SHOW_DIPOLES;
+    draw(target, frame, camera, options);
+    const uint8_t *ahead = pixel(target, 180, 120), *behind = pixel(target, 140, 120);
+    assert_true(ahead[0] > 150 && ahead[2] < 100);
+    assert_true(behind[2] > 150 && behind[0] < 100);
+    assert_memory_equal(pixel(target, 215, 120), &white, 4); // 48 px, and a rim
+    const size_t alone = changed_pixels(target);
+    options.show |= RENDER_SHOW_LEGEND;
+    draw(target, frame, camera, options);
+    assert_true(changed_pixels(target) > alone + 100);
+    assert_int_equal(render_add_dipole(frame, 0.0, 0.0, 1.0, 0.0, -1.0), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_dipole(frame, 0.0, NAN, 1.0, 0.0, 1.0), RENDER_E_NOT_FINITE);
+    render_frame_destroy(frame);
+    render_target_destroy(target);
+}
+
 // Chevrons point the way and move on with the surface.
 static void test_surfaces_run(void **state)
 {
@@ -440,6 +471,7 @@ int main(void)
         cmocka_unit_test(test_beams_glow),
         cmocka_unit_test(test_joints_have_signs),
         cmocka_unit_test(test_field_is_arrows),
+        cmocka_unit_test(test_dipoles_point),
         cmocka_unit_test(test_surfaces_run),
         cmocka_unit_test(test_rest_shows_no_velocity),
         cmocka_unit_test(test_labels_leave_other_bodies_alone),

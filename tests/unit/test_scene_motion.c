@@ -18,7 +18,8 @@ static plumb_body named(scene *s, const char *name)
     "body{ name = 'c', circle{1}, at = {10, 0}, max_speed = 3, max_spin = 4 }\n"                   \
     "body{ name = 'd', circle{1}, at = {15, 0}, enabled = false, time_scale = 0.25 }\n"            \
     "body{ name = 'e', type = 'kinematic', circle{1}, at = {20, 0}, time_scale = 0 }\n"            \
-    "body{ name = 'f', circle{1}, at = {25, 0}, mass = 5, damping = 1, lock = 'x' }\n"
+    "body{ name = 'f', circle{1}, at = {25, 0}, mass = 5, damping = 1, lock = 'x' }\n"             \
+    "body{ name = 'g', circle{1}, at = {30, 0}, dipole = 0.75, dipole_angle = -1.5 }\n"
 
 static void fields_reach_the_world(void **state)
 {
@@ -36,6 +37,8 @@ static void fields_reach_the_world(void **state)
     assert_false(plumb_body_is_enabled(w, named(s, "d")));
     assert_true(plumb_body_time_scale(w, named(s, "d")) == (plumb_real)0.25);
     assert_true(plumb_body_time_scale(w, named(s, "e")) == 0);
+    assert_true(plumb_body_dipole(w, named(s, "g")) == (plumb_real)0.75);
+    assert_true(plumb_body_dipole_angle(w, named(s, "g")) == (plumb_real)-1.5);
     plumb_shape shape;
     plumb_material_desc m;
     plumb_body_shapes(w, named(s, "a"), &shape, 1);
@@ -50,6 +53,7 @@ static void json_keeps_it(void **state)
     scene *s = load(EVERYTHING "find('f'):set_type('kinematic') find('b'):set_damping(3) "
                                "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
                                "find('c'):set_drag(0.5) find('c'):set_thrust(4)"
+                               "find('c'):set_dipole(-2) find('c'):set_dipole_angle(0.5)"
                                "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
     size_t size;
     char *text = export_json(s, &size);
@@ -70,6 +74,10 @@ static void json_keeps_it(void **state)
     assert_true(plumb_body_thrust_x(w, named(t, "b")) == -1);
     assert_true(plumb_body_thrust_angle(w, named(t, "b")) == 1);
     assert_true(plumb_body_thrust(w, named(t, "c")) == 4);
+    assert_true(plumb_body_dipole(w, named(t, "g")) == (plumb_real)0.75);
+    assert_true(plumb_body_dipole_angle(w, named(t, "g")) == (plumb_real)-1.5);
+    assert_true(plumb_body_dipole(w, named(t, "c")) == -2);
+    assert_true(plumb_body_dipole_angle(w, named(t, "c")) == (plumb_real)0.5);
     assert_true(plumb_body_is_enabled(w, named(t, "d")));
     assert_false(plumb_body_is_enabled(w, named(t, "a")));
     free(text);

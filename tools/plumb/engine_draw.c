@@ -259,6 +259,9 @@ static bool add_body(engine_stage *stage, const scene_body *body, int index, boo
     if ((show & RENDER_SHOW_SURFACES) != 0) {
         pl_stage_add_surfaces(stage, stage->shapes, count, frame);
     }
+    if ((show & RENDER_SHOW_DIPOLES) != 0) {
+        pl_stage_add_dipole(stage, body->entity, count, frame);
+    }
     return true;
 }
 

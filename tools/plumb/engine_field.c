@@ -3,7 +3,8 @@
 ///
 /// Fields of attractors go over many powers of ten, so length and colour go by the logarithm of the strength, from DECADES
 /// below the strongest on; the strongest is that of which the few that lie nearest to an attractor are left out. Of a body
-/// without charge. Cost: O(arrows laws).
+/// without charge; where nothing but gravity acts on such a one, of a charge, without gravity: the field of charges and
+/// magnets. Cost: O(arrows laws).
 #include "engine_session.h"
 #include "render/render.h"
 
@@ -41,7 +42,9 @@ static double strongest_of(const arrow *list, int count, double *room)
     return used == 0 ? 0 : room[used - 1 - (int)(LEFT_OUT * used)];
 }
 
-static int probe(const plumb_world *world, const engine_box *view, double spacing, arrow *list)
+/// Of a body without charge; `charged`: what a charge of 1 C/kg gets besides.
+static int probe(const plumb_world *world, const engine_box *view, double spacing, bool charged,
+                 arrow *list)
 {
     // At multiples of the spacing: they stay where they are while the camera moves.
     const double left = ceil(view->min_x / spacing), low = ceil(view->min_y / spacing);
@@ -51,8 +54,34 @@ static int probe(const plumb_world *world, const engine_box *view, double spacin
             const double x = i * spacing, y = j * spacing;
             const plumb_vec2 at = { (plumb_real)x, (plumb_real)y }, none = { 0, 0 };
             const plumb_vec2 a = plumb_world_law_at(world, at, none, 0);
-            const double ax = (double)a.x, ay = (double)a.y;
+            const plumb_vec2 c = charged ? plumb_world_law_at(world, at, none, 1) : none;
+            const double ax = charged ? (double)c.x - (double)a.x : (double)a.x;
+            const double ay = charged ? (double)c.y - (double)a.y : (double)a.y;
             list[count++] = (arrow){ x, y, ax, ay, hypot(ax, ay) };
+        }
+    }
+    return count;
+}
+
+/// All arrows are the same: gravity, or nothing.
+static bool is_even(const arrow *list, int count)
+{
+    for (int i = 1; i < count; i++) {
+        if (list[i].ax != list[0].ax || list[i].ay != list[0].ay) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static int probe_what_there_is(const plumb_world *world, const engine_box *view, double spacing,
+                               arrow *list, double *room)
+{
+    int count = probe(world, view, spacing, false, list);
+    if (is_even(list, count)) {
+        count = probe(world, view, spacing, true, list);
+        if (!(strongest_of(list, count, room) > 0)) {
+            count = probe(world, view, spacing, false, list);
         }
     }
     return count;
@@ -65,7 +94,7 @@ int pl_stage_draw_field(engine_stage *stage, struct render_frame *frame, const e
     double *room = malloc(MOST * sizeof *room);
     const int count = list == NULL || room == NULL || !(spacing > 0)
                           ? 0
-                          : probe(stage->world, view, spacing, list);
+                          : probe_what_there_is(stage->world, view, spacing, list, room);
     const double most = count == 0 ? 0 : strongest_of(list, count, room);
     for (int i = 0; i < count && most > 0; i++) {
         const arrow *a = &list[i];

@@ -111,6 +111,9 @@ void pl_stage_add_one_way(const plumb_world *world, plumb_shape shape, plumb_tra
 bool pl_stage_add_waves(const engine_stage *stage, plumb_shape shape, plumb_transform where,
                         struct render_frame *frame);
 /// Beams of the lamps of a scene. False when out of memory.
+/// The needle of a body with a dipole, within the `count` shapes of the stage's list.
+void pl_stage_add_dipole(const engine_stage *stage, plumb_body body, int count,
+                         struct render_frame *frame);
 bool pl_stage_add_light(const engine_stage *stage, struct render_frame *frame);
 /// Adds all soft bodies to a draw list. False when out of memory.
 bool pl_stage_add_softbodies(const engine_stage *stage, struct render_frame *frame);

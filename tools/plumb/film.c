@@ -30,6 +30,7 @@ static const struct {
     { "flow", RENDER_SHOW_FLOW },
     { "joints", RENDER_SHOW_JOINTS },
     { "surfaces", RENDER_SHOW_SURFACES },
+    { "dipoles", RENDER_SHOW_DIPOLES },
     { "grid", RENDER_SHOW_GRID },
     { "labels", RENDER_SHOW_LABELS },
     { "legend", RENDER_SHOW_LEGEND },

@@ -45,7 +45,7 @@ typedef struct film_args {
       "show 1/F of the height that would be shown (default 1)" },                                \
     { "overlay", 0, CLI_TEXT, offsetof(type, member.overlay), "LIST", 0, 0, NULL,                \
       "contacts, impulses, velocities, aabbs, cells (of the broad phase), field (what gravity and " \
-      "laws do to what has no charge), flow (of air and fluids), legend, names (of all bodies); on unless taken away (no-grid): joints, surfaces (the way they run), grid, "      \
+      "laws do to what has no charge, or, if that is nothing but gravity, to a charge), flow (of air and fluids), legend, names (of all bodies); on unless taken away (no-grid): joints, surfaces (the way they run), dipoles (red: the north pole), grid, "      \
       "labels, scale, title, spokes; none: nothing but the bodies" },                            \
     { "trail", 0, CLI_REAL, offsetof(type, member.trail), "S", 0, SCENE_TIME_MAX, NULL,          \
       "draw behind every moving body where it was in the last S seconds (default: "              \

@@ -335,6 +335,18 @@ render_result render_add_field(render_frame *frame, double x, double y, double l
     return add_mark(frame, mark, NULL);
 }
 
+render_result render_add_dipole(render_frame *frame, double x, double y, double half_x,
+                                double half_y, double across)
+{
+    if (!(across >= 0.0)) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_mark mark = {
+        .kind = PLR_DIPOLE, .a = { x, y }, .b = { half_x, half_y }, .value = across
+    };
+    return add_mark(frame, mark, NULL);
+}
+
 render_result render_add_beam(render_frame *frame, render_vec a, render_vec b, double bright_a,
                               double bright_b, render_rgba color)
 {

@@ -152,6 +152,7 @@ static int legend_rows(const plr_painter *painter, legend_row *rows)
         { RENDER_SHOW_IMPULSES, PLR_IMPULSE, "impulse", "N s" },
         { RENDER_SHOW_VELOCITIES, PLR_VELOCITY, "velocity", "m/s" },
         { RENDER_SHOW_SURFACES, PLR_SURFACE, "running surface", NULL },
+        { RENDER_SHOW_DIPOLES, PLR_DIPOLE, "dipole, red: its north pole", NULL },
         { RENDER_SHOW_FIELD, PLR_FIELD, "field", NULL },
         { RENDER_SHOW_FLOW, PLR_FLOW, "flow", NULL },
         { RENDER_SHOW_TRAILS, PLR_TRAIL, "trail", NULL },

@@ -68,6 +68,7 @@ typedef enum plr_mark_kind {
     PLR_FIELD,
     PLR_FLOW,
     PLR_SURFACE,
+    PLR_DIPOLE,
     PLR_BEAM,
     PLR_TEXT,
     PLR_MARK_KINDS
@@ -83,7 +84,7 @@ typedef struct plr_mark {
     double bright_a, bright_b; ///< of a beam
     double
         value; ///< depth of a contact; travel of a surface; spacing of a liquid; strength of a field, of a
-               ///< flow; side of a cell of smoke
+               ///< flow; side of a cell of smoke; half the width of a dipole's needle
     render_rgba color;  ///< liquid, smoke, beam
     size_t first_point; ///< trail, surface
     size_t point_count; ///< trail, surface

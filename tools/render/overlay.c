@@ -17,6 +17,8 @@ static const render_rgba field_weak = { 0xb9, 0xc9, 0xd6, 0xff };
 static const render_rgba field_strong = { 0x8a, 0x2f, 0x73, 0xff };
 static const render_rgba flow_slow = { 0x8f, 0xa8, 0xbc, 0xff };
 static const render_rgba flow_fast = { 0x0d, 0x4f, 0x8b, 0xff };
+static const render_rgba north_color = { 0xc8, 0x2a, 0x2f, 0xff };
+static const render_rgba south_color = { 0x2b, 0x5c, 0xb0, 0xff };
 static const render_rgba surface_color = { 0xf0, 0x9a, 0x3e, 0xff };
 
 // The longest arrow is at most this share of the picture's height under automatic scale.
@@ -198,6 +200,25 @@ static void draw_surface(plr_painter *painter, const render_vec *world, size_t c
     }
 }
 
+// A rhombus, one half of each colour, with a light rim: it is seen on bodies of any colour.
+static void draw_dipole(plr_painter *painter, render_vec at, render_vec half, double across)
+{
+    const double length = hypot(half.x, half.y);
+    if (length < 1.0) {
+        return;
+    }
+    const render_vec side = { -half.y / length * across, half.x / length * across };
+    const render_vec tip = { at.x + half.x, at.y + half.y },
+                     tail = { at.x - half.x, at.y - half.y };
+    const render_vec left = { at.x + side.x, at.y + side.y };
+    const render_vec right = { at.x - side.x, at.y - side.y };
+    const render_vec rim[4] = { tip, left, tail, right };
+    const render_rgba light = plr_fade(plr_background, 0.9);
+    plr_stroke(painter, rim, 4, true, 2.0 * painter->ui, light, light);
+    plr_fill(painter, (render_vec[3]){ left, right, tip }, 3, north_color);
+    plr_fill(painter, (render_vec[3]){ left, right, tail }, 3, south_color);
+}
+
 static void draw_contact(plr_painter *painter, render_vec at, render_vec normal, double depth)
 {
     const double ui = painter->ui;
@@ -228,11 +249,9 @@ void plr_draw_overlay(plr_painter *painter)
     static const struct {
         plr_mark_kind kind;
         unsigned flag;
-    } order[] = { { PLR_AABB, RENDER_SHOW_AABBS },
-                  { PLR_SURFACE, RENDER_SHOW_SURFACES },
-                  { PLR_VELOCITY, RENDER_SHOW_VELOCITIES },
-                  { PLR_IMPULSE, RENDER_SHOW_IMPULSES },
-                  { PLR_CONTACT, RENDER_SHOW_CONTACTS } };
+    } order[] = { { PLR_AABB, RENDER_SHOW_AABBS },       { PLR_SURFACE, RENDER_SHOW_SURFACES },
+                  { PLR_DIPOLE, RENDER_SHOW_DIPOLES },   { PLR_VELOCITY, RENDER_SHOW_VELOCITIES },
+                  { PLR_IMPULSE, RENDER_SHOW_IMPULSES }, { PLR_CONTACT, RENDER_SHOW_CONTACTS } };
     const render_frame *frame = painter->frame;
     plr_draw_joints(painter);
     for (size_t k = 0; k < sizeof order / sizeof order[0]; k++) {
@@ -250,6 +269,9 @@ void plr_draw_overlay(plr_painter *painter)
             } else if (mark->kind == PLR_SURFACE) {
                 draw_surface(painter, frame->points + mark->first_point, mark->point_count,
                              mark->variant != 0, mark->value);
+            } else if (mark->kind == PLR_DIPOLE) {
+                draw_dipole(painter, plr_pixel(painter, mark->a), pixel_vector(painter, mark->b),
+                            mark->value * painter->scale);
             } else if (mark->kind == PLR_CONTACT) {
                 draw_contact(painter, plr_pixel(painter, mark->a), pixel_vector(painter, mark->b),
                              mark->value);
@@ -304,6 +326,9 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
                 surface_color);
         chevron(painter, (render_vec){ middle.x + 0.4 * half, middle.y }, (render_vec){ 1.0, 0.0 },
                 surface_color);
+        break;
+    case PLR_DIPOLE:
+        draw_dipole(painter, middle, (render_vec){ half, 0.0 }, 0.3 * half);
         break;
     case PLR_FLOW:
         plr_stroke(painter, (render_vec[2]){ left, right }, 2, false, 2.0 * painter->ui,

@@ -158,6 +158,10 @@ render_result render_add_velocity(render_frame *frame, double x, double y, doubl
 /// a strength in units of the caller, for the legend.
 render_result render_add_field(render_frame *frame, double x, double y, double length_x,
                                double length_y, double strength, double share);
+/// A dipole or magnet about a point: a needle whose positive (north) end, in red, is (half_x, half_y) away, `across` >= 0 of it to
+/// either side of the middle.
+render_result render_add_dipole(render_frame *frame, double x, double y, double half_x,
+                                double half_y, double across);
 /// A bounding box.
 render_result render_add_aabb(render_frame *frame, render_box box);
 /// A grid cell that is in use.
@@ -283,13 +287,14 @@ enum {
     RENDER_SHOW_NOTHING = 1 << 14,  ///< bodies only (0 means the default)
     RENDER_SHOW_SURFACES = 1 << 15, ///< chevrons on surfaces that run
     RENDER_SHOW_FIELD = 1 << 16,    ///< arrows of a field, below the bodies
-    RENDER_SHOW_FLOW = 1 << 17      ///< pieces of streamlines, below the bodies
+    RENDER_SHOW_FLOW = 1 << 17,     ///< pieces of streamlines, below the bodies
+    RENDER_SHOW_DIPOLES = 1 << 18   ///< needles of dipoles
 };
 /// What a `show` of 0 means.
 #define RENDER_SHOW_DEFAULT                                                                        \
     (RENDER_SHOW_TRAILS | RENDER_SHOW_JOINTS | RENDER_SHOW_LABELS | RENDER_SHOW_TEXTS |            \
      RENDER_SHOW_SURFACES | RENDER_SHOW_GRID | RENDER_SHOW_SCALE | RENDER_SHOW_TITLE |             \
-     RENDER_SHOW_SPOKES)
+     RENDER_SHOW_SPOKES | RENDER_SHOW_DIPOLES)
 
 /// Where the legend goes, always at the right edge.
 typedef enum render_legend_at {

@@ -31,7 +31,8 @@ typedef enum pl_law_way {
     PL_LAW_NONE,  // nothing acts on it
     PL_LAW_FLIES,  // by itself (orbits.c)
     PL_LAW_PUSHED, // in the substeps
-    PL_LAW_HELD    // likewise, by a contact, a joint or a lock: it may come to rest
+    PL_LAW_HELD,   // likewise, by a joint or a lock: it may come to rest
+    PL_LAW_TOUCHES // likewise, by a contact
 } pl_law_way;
 
 // A body that laws act on, in a step.

@@ -94,6 +94,8 @@ static void refusals(void)
     refused(w, "laws", MADE(plumb_law_create, (plumb_law_desc){ .vector = { 1, 0 } }));
     refused(w, "laws", MADE(plumb_body_create, (plumb_body_desc){ .charge = 1 }));
     refused(w, "laws", plumb_body_set_attraction(w, body, 1) == PLUMB_OK);
+    refused(w, "laws", plumb_body_set_dipole(w, body, 1) == PLUMB_OK);
+    refused(w, "laws", plumb_body_set_dipole_angle(w, body, 1) == PLUMB_OK);
     refused(w, "laws", plumb_world_set_orbits(w, &(plumb_orbit_desc){ .order = 4 }) == PLUMB_OK);
     const plumb_vec2 g = plumb_world_law_at(w, (plumb_vec2){ 1, 2 }, (plumb_vec2){ 3, 4 }, 5);
     bad += g.x != 0 || g.y != plumb_world_gravity(w).y; // no law, so that is all
