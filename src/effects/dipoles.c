@@ -273,9 +273,13 @@ static void push_single(void *context, uint32_t first, uint32_t count)
 static void push_pairs(const passage *p, const pl_law_now *law)
 {
     const pl_law_step *step = &p->world->laws.step;
+    const pl_law_body *bodies = pl_law_bodies(p->world);
     const bool any = law->desc->kind == PLUMB_LAW_MUTUAL && law->desc->hold == PLUMB_LAW_ON_CHARGE;
     for (uint32_t i = 0; i < step->source_count && any; ++i) {
         for (uint32_t k = i + 1; k < step->coupled_count; ++k) {
+            if (bodies[i].slot == PL_NONE && bodies[k].slot == PL_NONE) {
+                continue; // both sleep
+            }
             const pl_dipole_push more = pl_dipole_pair(law, &p->poles[i], &p->poles[k]);
             add(&p->pushes[k], more.fx, more.fy, more.torque);
             add(&p->pushes[i], -more.fx, -more.fy, more.answer);

@@ -10,7 +10,7 @@
 // rests when it stands still, as what floats does.
 //
 // Reads: laws and bodies of the step. Writes: records of bodies, times of rest. Order: when nothing can fail any more. Cost:
-// O(those that attract and are held x all that are coupled).
+// O(those that attract x all that are coupled), where some of them are slow or asleep.
 #include "effects/laws.h"
 
 #include "world/island.h"
@@ -18,68 +18,111 @@
 
 #include <math.h>
 
-// [m/s^2] of the centre; of the farthest point, by the turn.
-typedef struct pull {
-    double x, y, tip;
-} pull;
+// A coupled body, and what the others give it.
+typedef struct pulled {
+    pl_pole pole;
+    double x, y, torque; // [N], [N m]
+    bool asked;          // it is held, and slow or asleep
+} pulled;
 
-static pull pull_on(const plumb_world *world, const pl_law_body *body)
+bool pl_law_rest_reserve(plumb_world *world)
+{
+    pl_law_step *s = &world->laws.step;
+    const size_t count = s->source_count > 0 ? s->coupled_count : 0;
+    return pl_buffer_reserve(&world->memory, &s->pulled, count * sizeof(pulled));
+}
+
+static bool is_free(const plumb_world *world, const pl_law_body *body)
+{
+    return body->mass > 0 && pl_law_way_of(world, body->row) < PL_LAW_HELD;
+}
+
+// Whether anybody is to be asked.
+static bool gather(const plumb_world *world, pulled *all)
 {
     const pl_law_step *s = &world->laws.step;
-    const pl_bodies *b = &world->bodies;
-    const pl_pole here = pl_pole_of(world, body);
-    pull p = { 0, 0, 0 };
-    for (uint32_t k = 0; k < s->law_count; ++k) {
-        const pl_law_now *law = &pl_laws_now(world)[k];
-        for (uint32_t i = 0; i < s->coupled_count && law->desc->kind == PLUMB_LAW_MUTUAL; ++i) {
-            const pl_law_body *other = &pl_law_bodies(world)[i];
-            if (other->row == body->row) {
-                continue;
+    bool any = false;
+    for (uint32_t i = 0; i < s->coupled_count; ++i) {
+        const pl_law_body *body = &pl_law_bodies(world)[i];
+        const bool slow = body->mass == 0 || world->bodies.rest_time[body->row] >= 0;
+        all[i] = (pulled){ .pole = pl_pole_of(world, body),
+                           .asked = i < s->source_count && slow && !is_free(world, body) };
+        any |= all[i].asked;
+    }
+    return any;
+}
+
+static void add_pair(const pl_law_now *law, pulled *a, pulled *b)
+{
+    const double dx = b->pole.x - a->pole.x, dy = b->pole.y - a->pole.y;
+    const double f =
+        pl_law_pair(law, a->pole.body, b->pole.body) * pl_law_falloff(law, dx * dx + dy * dy);
+    const pl_dipole_push more = pl_dipole_pair(law, &a->pole, &b->pole);
+    const double x = more.fx - f * dx, y = more.fy - f * dy;
+    b->x += x, b->y += y, b->torque += more.torque;
+    a->x -= x, a->y -= y, a->torque += more.answer;
+}
+
+static void add_pairs(const pl_law_step *s, const pl_law_now *law, pulled *all)
+{
+    for (uint32_t i = 0; i < s->source_count && law->desc->kind == PLUMB_LAW_MUTUAL; ++i) {
+        for (uint32_t k = i + 1; k < s->coupled_count; ++k) {
+            if (all[i].asked || all[k].asked) {
+                add_pair(law, &all[i], &all[k]);
             }
-            const pl_pole there = pl_pole_of(world, other);
-            const double dx = there.x - here.x, dy = there.y - here.y;
-            const double f = pl_law_pair(law, body, other) * pl_law_falloff(law, dx * dx + dy * dy);
-            const pl_dipole_push more = pl_dipole_pair(law, &there, &here);
-            p.x += f * dx + more.fx, p.y += f * dy + more.fy;
-            p.tip += more.torque;
         }
     }
-    const double ease = (double)b->inv_mass[body->row];
-    p.x *= ease, p.y *= ease;
-    p.tip *= (double)(b->inv_inertia[body->row] * b->extent[body->row]);
-    return p;
 }
 
 // The pull is not the one under which it rests; from now on it is.
-static bool is_pulled_anew(plumb_world *world, const pl_law_body *body)
+static bool is_pulled_anew(plumb_world *world, const pulled *p)
 {
+    const pl_bodies *b = &world->bodies;
+    const uint32_t row = p->pole.body->row;
     // Who attracts has a record: of a charge, a dipole, an attraction.
-    pl_body_settings *t =
-        (pl_body_settings *)world->settings.items.data + world->bodies.settings[body->row] - 1;
-    const pull now = pull_on(world, body);
-    const double x = now.x - (double)t->pull_x, y = now.y - (double)t->pull_y,
-                 tip = now.tip - (double)t->pull_tip;
+    pl_body_settings *t = (pl_body_settings *)world->settings.items.data + b->settings[row] - 1;
+    const double ease = (double)b->inv_mass[row];
+    const double now[] = { ease * p->x, ease * p->y,
+                           p->torque * (double)(b->inv_inertia[row] * b->extent[row]) };
+    const double x = now[0] - (double)t->pull_x, y = now[1] - (double)t->pull_y,
+                 tip = now[2] - (double)t->pull_tip;
     const double least = (double)pl_push_tolerance(world);
-    const double share = (double)PL_EVEN * sqrt(now.x * now.x + now.y * now.y + now.tip * now.tip);
+    const double share =
+        (double)PL_EVEN * sqrt(now[0] * now[0] + now[1] * now[1] + now[2] * now[2]);
     const double most = share > least ? share : least;
     if (x * x + y * y + tip * tip <= most * most) {
         return false;
     }
-    t->pull_x = (real)now.x, t->pull_y = (real)now.y, t->pull_tip = (real)now.tip;
+    t->pull_x = (real)now[0], t->pull_y = (real)now[1], t->pull_tip = (real)now[2];
     return true;
+}
+
+static void rest_held(plumb_world *world)
+{
+    const pl_law_step *s = &world->laws.step;
+    pulled *all = s->pulled.data;
+    if (s->source_count == 0 || !gather(world, all)) {
+        return;
+    }
+    for (uint32_t k = 0; k < s->law_count; ++k) {
+        add_pairs(s, &pl_laws_now(world)[k], all);
+    }
+    for (uint32_t i = 0; i < s->source_count; ++i) {
+        if (all[i].asked && is_pulled_anew(world, &all[i])) {
+            pl_sleep_disturb(world, all[i].pole.body->row);
+        }
+    }
 }
 
 void pl_law_rest(plumb_world *world)
 {
     const pl_law_step *s = &world->laws.step;
     real *rest_time = world->bodies.rest_time;
-    for (uint32_t i = 0; i < s->source_count; ++i) {
+    rest_held(world);
+    for (uint32_t i = 0; i < s->source_count && s->coupled_count > 1; ++i) {
         const pl_law_body *body = &pl_law_bodies(world)[i];
-        const bool free = body->mass > 0 && pl_law_way_of(world, body->row) < PL_LAW_HELD;
-        if (free && s->coupled_count > 1) {
+        if (is_free(world, body)) {
             rest_time[body->row] = PL_NOT_RESTING;
-        } else if (!free && is_pulled_anew(world, body)) {
-            pl_sleep_disturb(world, body->row);
         }
     }
     for (uint32_t i = 0; i < s->body_count && world->settings.dipoles > 0; ++i) {

@@ -49,7 +49,7 @@ void pl_laws_free(pl_memory *memory, pl_laws *laws)
     pl_law_step *s = &laws->step;
     pl_buffer *buffers[] = { &laws->items, &laws->orbits, &s->laws,   &s->ways,
                              &s->bodies,   &s->order,     &s->states, &s->forces,
-                             &s->table,    &s->flights,   &s->poles };
+                             &s->table,    &s->flights,   &s->poles,  &s->pulled };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -406,7 +406,7 @@ bool pl_laws_find(plumb_world *world, real dt)
     name_members(world);
     push_touching(world);
     settle_coupled(world);
-    return pl_orbits_reserve(world) && pl_dipoles_reserve(world);
+    return pl_orbits_reserve(world) && pl_dipoles_reserve(world) && pl_law_rest_reserve(world);
 }
 
 void pl_laws_settle(plumb_world *world)

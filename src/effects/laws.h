@@ -145,6 +145,8 @@ double pl_dipole_energy_in(const pl_law_now *law, const pl_pole *pole);
 
 //---- law_rest.c ----------------------------------------------------------------------------------
 
+// Room for what coupled bodies are pulled by. False when out of memory.
+bool pl_law_rest_reserve(plumb_world *world);
 // When nothing can fail any more: who attracts others, or has a dipole, and does not come to rest, or wakes.
 void pl_law_rest(plumb_world *world);
 

@@ -63,7 +63,8 @@ typedef struct pl_law_step {
     pl_buffer order;  // pl_keyed: slot and place among the bodies that are pushed
     pl_buffer states, forces, table; // pl_law_state; plumb doubles; rows of extrapolations
     pl_buffer flights;               // pl_flight a dynamic row, of those that fly
-    pl_buffer poles;                 // pl_pole a coupled body (effects/dipoles.c)
+    pl_buffer poles;                 // pl_pole, pl_dipole_push a coupled body (effects/dipoles.c)
+    pl_buffer pulled;                // a record a coupled body (effects/law_rest.c)
     uint32_t law_count, body_count, coupled_count, source_count, pushed_count;
     bool replaces; // some law does
     bool flies;    // some body does
