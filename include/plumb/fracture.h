@@ -9,7 +9,7 @@
 /// The part of the largest mass stays the body that it was, with handle, joints held there, components and what else the world
 /// knows by it; its shapes keep their handles. The others are new bodies, whose frame is that of the
 /// body that they are of: a point of the material keeps its local coordinates. They have its type, material, filters, user data and
-/// settings, but its engine (the largest part keeps it) and its bounds of breaking; charge, drag and fuel are shared by mass.
+/// settings, but its engine (the largest part keeps it) and its bounds of breaking; charge, dipole, drag and fuel are shared by mass.
 /// Joints go to the part in which their anchor lies, or to which it is nearest. Segments, chains and
 /// sensors stay with the largest part. Velocities are those of the rigid motion.
 ///

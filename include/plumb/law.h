@@ -5,9 +5,11 @@
 ///
 /// A law acts on dynamic bodies, at their centres of mass, in every substep; on top of the world's gravity, unless it
 /// replaces it. Bodies that nothing but laws, gravity and forces act on in a step (no contact, joint, damping, cap, lock,
-/// time scale, no system of the substep) fly: they are moved by an integrator of orbits, of second order by default, of
+/// time scale, dipole, no system of the substep) fly: they are moved by an integrator of orbits, of second order by default, of
 /// fourth or to a tolerance by choice; what only uniform laws act on without end flies exactly. All others get the laws'
-/// accelerations in their substeps. Bodies that attract one another fly together or not at all.
+/// accelerations in their substeps. Bodies that attract one another fly together or not at all. Those that nothing holds (no
+/// contact, joint, lock) do not fall asleep; the others do while the pull on them stays, and wake when it is another: by more
+/// than plumb/sleep.h says of forces, and than 2 % of it.
 /// The world must not wrap around. Nothing of it is done in a world without laws.
 #ifndef PLUMB_LAW_H
 #define PLUMB_LAW_H

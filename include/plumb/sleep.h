@@ -22,7 +22,7 @@
 ///   loses a shape, the shape decides, not the body: tiles may be built and dug where nobody lies on them;
 /// - gravity or the tuning of contacts is changed, or a system of PLUMB_PHASE_CONTACTS is registered or
 ///   switched (such systems see no sleeping contacts).
-/// What sets a value that is already there does not wake.
+/// What sets a value that is already there does not wake. Of bodies that attract each other: plumb/law.h.
 ///
 /// Forces. A steady force lets a body at rest fall asleep, whether calls (plumb_body_apply_force) or systems that
 /// write force columns give it anew each step. While it goes on, the body sleeps; when it ends, or becomes

@@ -394,14 +394,19 @@ bool pl_laws_find(plumb_world *world, real dt)
     pl_fill(s->ways.data, PL_LAW_NONE, world->dynamic_count);
     s->law_count = pl_laws_place(world, s->laws.data);
     s->replaces = false;
+    bool couple = false; // else nobody is a source or coupled
     for (uint32_t i = 0; i < s->law_count; ++i) {
-        s->replaces |= pl_laws_now(world)[i].desc->combine == PLUMB_LAW_REPLACE;
+        const pl_law_now *law = &pl_laws_now(world)[i];
+        s->replaces |= law->desc->combine == PLUMB_LAW_REPLACE;
+        couple |= law->desc->kind == PLUMB_LAW_MUTUAL || law->carrier != PL_NONE;
     }
     s->body_count = s->source_count = s->coupled_count = s->pushed_count = 0;
-    put_bodies(world, (double)dt, SOURCES);
-    s->source_count = s->body_count;
-    put_bodies(world, (double)dt, COUPLED);
-    s->coupled_count = s->body_count;
+    if (couple) {
+        put_bodies(world, (double)dt, SOURCES);
+        s->source_count = s->body_count;
+        put_bodies(world, (double)dt, COUPLED);
+        s->coupled_count = s->body_count;
+    }
     put_bodies(world, (double)dt, SINGLE);
     name_members(world);
     push_touching(world);
