@@ -222,6 +222,10 @@ static void pulls_are_those_of_textbooks(void **state)
     assert_pull(pull_between(charge, other), 0, -2 * k * q * p / (r * r * r), 0);
     other.angle = 0;
     assert_pull(pull_between(charge, other), k * q * p / (r * r * r), 0, k * q * p / (r * r));
+    other.time_scale = R(0.5); // of its own time, of which half as much has passed
+    assert_pull(pull_between(charge, other), k * q * p / (r * r * r) / 2, 0,
+                k * q * p / (r * r) / 2);
+    other.time_scale = 1;
     other.angle = R(TAU / 4);
     assert_pull(pull_between(across, other), 0, -6 * k * p * p / (r * r * r * r), 0);
     other.angle = 0;

@@ -174,6 +174,32 @@ static void a_compass_sleeps_in_a_steady_field(void **state)
     plumb_world_destroy(w);
 }
 
+// Damped so much that it creeps, slow and even, it goes all the way.
+static void a_damped_compass_does_not_stop_on_its_way(void **state)
+{
+    (void)state;
+    for (int pinned = 0; pinned < 2; ++pinned) {
+        plumb_world *w = make_world((plumb_world_desc){ .zero_gravity = true });
+        const plumb_law_desc d = uniform(R(0.1), 0);
+        plumb_law_create(w, &d);
+        const plumb_body needle = box(w, 0, 0,
+                                      (plumb_body_desc){ .dipole = 1,
+                                                         .angle = 1,
+                                                         .angular_damping = 30,
+                                                         .lock_x = true,
+                                                         .lock_y = pinned == 0 });
+        if (pinned == 1) {
+            pin(w, needle);
+        }
+        for (int i = 0; i < 6000 && asleep(w) == 0; ++i) {
+            run(w, 1);
+        }
+        assert_int_equal(asleep(w), 1);
+        assert_near(plumb_body_angle(w, needle), 0, 0.01);
+        plumb_world_destroy(w);
+    }
+}
+
 typedef struct bench {
     plumb_world *w;
     plumb_body magnet, needles[3]; // on the ground, and round it on pins
@@ -512,6 +538,7 @@ int main(void)
         cmocka_unit_test(without_dipoles_there_is_no_pass),
         cmocka_unit_test(parts_share_it_by_mass),
         cmocka_unit_test(a_compass_sleeps_in_a_steady_field),
+        cmocka_unit_test(a_damped_compass_does_not_stop_on_its_way),
         cmocka_unit_test(what_sleeps_wakes_when_a_magnet_changes),
         cmocka_unit_test(what_creeps_wakes_in_the_end),
         cmocka_unit_test(magnets_snap_together_and_sleep),

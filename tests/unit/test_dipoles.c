@@ -289,6 +289,12 @@ static void what_does_not_act_is_nothing(void **state)
     d.categories = 3;
     none = of_pair(&far, &a, &b);
     assert_true(largest(&none) > 0);
+    pl_law_body named = body_of(&a), other_one = body_of(&b);
+    other_one.categories = 4; // both have to be
+    const pl_pole one = { &named, 0, 0, 1, 2 }, two = { &other_one, 1, 2, 2, 1 };
+    assert_true(pl_dipole_pair(&far, &one, &two).fx == 0);
+    assert_true(pl_dipole_pair(&far, &two, &one).fx == 0);
+    assert_true(pl_dipole_energy(&far, &one, &two) == 0);
     d.hold = PLUMB_LAW_ON_MASS;
     none = of_pair(&far, &a, &b);
     assert_true(largest(&none) == 0);
