@@ -108,6 +108,10 @@ rule stiff-spring 'stiffness = 1e5' 'stiffness = 1e3' <<'END'
 local ball = body { name = "ball", circle { 0.2 }, mass = 1, at = {1, 0} }
 distance { ball, at_a = {0, 0}, spring = { @ } }
 END
+rule stiff-spring 4e5 4e4 <<'END'
+zone { electric = {@, 0} }
+body { name = "needle", box { 0.6, 0.1 }, mass = 10, dipole = 0.1 }
+END
 rule filter-meets-none 'collides = {"ghost"}' 'collides = {}' <<'END'
 body { type = "static", box { 10, 1 }, at = {0, -0.5} }
 body { name = "ghost", circle { 0.2, category = "ghost", @ }, at = {0, 2} }
@@ -125,6 +129,10 @@ body { type = "static", box { 10, 1, material = material { @, surface_speed = 2 
 END
 rule effect-on-none 'kinetic_friction = 0.7' 'kinetic_friction = 0.4' <<'END'
 body { type = "static", box { 10, 1, material = material { friction = 0.5, @ } }, at = {0, -0.5} }
+END
+rule effect-on-none 0.2 0 <<'END'
+magnetic { strength = 1 }
+body { name = "bar", box { 1, 0.1 }, dipole = @ }
 END
 rule overlap 0.4 0.5 <<'END'
 body { type = "static", box { 10, 1 }, at = {0, -0.5} }

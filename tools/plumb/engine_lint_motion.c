@@ -5,6 +5,8 @@
 
 /// [-] of the substep rate: springs up to there move as the oscillator does (plumb/joint.h).
 static const double SPRING = 0.09;
+/// [rad] of a small swing of a dipole in a substep: from 2 on it gains energy.
+static const double NEEDLE = 1;
 
 /// Whether some shape of one may meet some of the other.
 static bool may_meet(const lint_job *job, plumb_body a, plumb_body b)
@@ -123,8 +125,43 @@ static double frequency(const lint_job *job, const plumb_joint_desc *d)
     return sqrt((double)d->stiffness * inverse) / (2 * 3.14159265358979323846);
 }
 
+/// [rad/s] by which a small swing of a dipole goes where it is, in the field of all others; the world is a copy.
+static double swing(const lint_job *job, plumb_body body)
+{
+    const plumb_real moment = plumb_body_dipole(job->world, body);
+    const double inertia = (double)plumb_body_inertia(job->world, body);
+    const plumb_vec2 at = plumb_body_center(job->world, body), none = { 0, 0 };
+    plumb_body_set_dipole(job->world, body, 0);
+    const plumb_vec2 with = plumb_world_law_at(job->world, at, none, 1);
+    const plumb_vec2 without = plumb_world_law_at(job->world, at, none, 0);
+    plumb_body_set_dipole(job->world, body, moment);
+    const double field =
+        hypot((double)with.x - (double)without.x, (double)with.y - (double)without.y);
+    return inertia > 0 ? sqrt(fabs((double)moment) * field / inertia) : 0;
+}
+
+/// What of a dipole is a spring: the field that it points along.
+static void look_at_dipoles(lint_job *job)
+{
+    for (int i = 0; i < pl_lint_body_count(job); i++) {
+        const plumb_body body = pl_lint_body_at(job, i);
+        if (!pl_lint_is_dynamic(job, body) || plumb_body_dipole(job->world, body) == 0) {
+            continue;
+        }
+        const double w = swing(job, body);
+        if (w > NEEDLE * job->rate * (1 + LINT_SLACK)) {
+            pl_lint_tell(
+                job,
+                "the dipole of '%s' swings at %.3g rad/s; %.3g substeps a second follow up "
+                "to %.3g rad/s",
+                pl_lint_name_of(job, body), w, job->rate, NEEDLE * job->rate);
+        }
+    }
+}
+
 void pl_lint_springs(lint_job *job)
 {
+    look_at_dipoles(job);
     for (int i = 0; i < scene_joint_count(job->scene); i++) {
         const scene_joint j = scene_joint_get(job->scene, i);
         plumb_joint_desc d;

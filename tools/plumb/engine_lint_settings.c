@@ -62,12 +62,31 @@ static void look_at_sliding(lint_job *job, plumb_body body)
     }
 }
 
+/// Whether some law turns dipoles.
+static bool has_law_on_charge(const plumb_world *world)
+{
+    plumb_law laws[64];
+    plumb_law_desc d;
+    const int count = plumb_world_laws(world, laws, 64);
+    bool any = count > 64;
+    for (int i = 0; i < count && !any; i++) {
+        any = plumb_law_settings(world, laws[i], &d) == PLUMB_OK && d.hold == PLUMB_LAW_ON_CHARGE &&
+              d.kind != PLUMB_LAW_MAGNETIC;
+    }
+    return any;
+}
+
 void pl_lint_effects(lint_job *job)
 {
+    const bool turns = has_law_on_charge(job->world);
     for (int i = 0; i < pl_lint_body_count(job); i++) {
         const plumb_body body = pl_lint_body_at(job, i);
         look_at_running(job, body);
         look_at_sliding(job, body);
+        if (plumb_body_dipole(job->world, body) != 0 && !turns) {
+            pl_lint_tell(job, "'%s' has a dipole, and no law on charge acts on it",
+                         pl_lint_name_of(job, body));
+        }
         if (plumb_body_get_type(job->world, body) != PLUMB_DYNAMIC) {
             look_at_still(job, body);
         }

@@ -11,8 +11,8 @@
       "a heavier light one, substeps=16, direct_joints=true for joints, solver=\"exact\", or a tolerance")                   \
     X("fast-and-thin", speeds, "a body goes farther in a step than it and what it may meet are thick, seen from there",               \
       "continuous=true on one of the two, a shorter step, or thicker shapes")                                                \
-    X("stiff-spring", springs, "a spring is stiffer than substeps can follow, and is damped",                        \
-      "a softer spring, more substeps, or a rigid joint")                                                                    \
+    X("stiff-spring", springs, "a spring, or a field that turns a dipole, is stiffer than substeps can follow",      \
+      "a softer spring or weaker field, more substeps, or a rigid joint")                                                                    \
     X("filter-meets-none", filters, "a filter lets a shape meet no other",                                           \
       "let categories and masks name one another; what is to meet nothing says so")                                          \
     X("effect-on-none", effects, "a setting, a surface or a joint acts on nothing",                                  \
