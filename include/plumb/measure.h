@@ -21,7 +21,7 @@ PLUMB_BEGIN
     X(FORCES,   forces,   "forces and torques of the user's; systems of the substep")                    \
     X(FLUIDS,   fluids,   "volumes of water and wind: what lifts, drags and carries, and the mass they lend") \
     X(LIQUID,   liquid,   "liquid and air that flow")                                                    \
-    X(LAWS,     laws,     "forces at a distance, zones, magnetic fields; orbits")                        \
+    X(LAWS,     laws,     "forces at a distance, zones, magnetic fields, formulas; orbits")                        \
     X(THRUST,   thrust,   "engines, and the fuel that they burn")                                        \
     X(SOFT,     soft,     "ropes, cloth, jelly and skins that touch or hold bodies")                     \
     X(NORMAL,   normal,   "contacts along their normals: blows that do not bounce, platforms that lift") \

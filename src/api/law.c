@@ -32,15 +32,15 @@ typedef struct number {
 
 enum { CHOICES = 4, NUMBERS = 9 };
 
-static void list_choices(const plumb_law_desc *d, choice out[CHOICES])
+static void list_choices(const pl_law_data *d, choice out[CHOICES])
 {
-    out[0] = (choice){ "kind", (int)d->kind, PLUMB_LAW_MUTUAL };
+    out[0] = (choice){ "kind", (int)d->kind, PLUMB_LAW_FORMULA };
     out[1] = (choice){ "hold", (int)d->hold, PLUMB_LAW_ON_CHARGE };
     out[2] = (choice){ "falloff", (int)d->falloff, PLUMB_FALLOFF_SPRING };
     out[3] = (choice){ "combine", (int)d->combine, PLUMB_LAW_REPLACE };
 }
 
-static void list_numbers(const plumb_law_desc *d, number out[NUMBERS])
+static void list_numbers(const pl_law_data *d, number out[NUMBERS])
 {
     out[0] = (number){ "position.x", d->position.x, -FAR, FAR };
     out[1] = (number){ "position.y", d->position.y, -FAR, FAR };
@@ -61,20 +61,21 @@ static bool is_half_sound(plumb_vec2 half)
 }
 
 // Members that do not go together; NULL: they do.
-static const char *discord(const plumb_law_desc *d)
+static const char *discord(const pl_law_data *d)
 {
-    const bool zone = d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_MAGNETIC;
+    const bool zone = d->kind != PLUMB_LAW_ATTRACTOR && d->kind != PLUMB_LAW_MUTUAL;
     const bool replaces = d->combine == PLUMB_LAW_REPLACE;
-    return !zone && d->half.x > 0 ? "half is set; only uniform and magnetic laws have a box"
+    return !zone && d->half.x > 0
+               ? "half is set; only uniform and magnetic laws and formulas have a box"
            : d->half.x > 0 && d->radius > 0 ? "radius is set with half; a zone is a circle or a box"
            : d->kind == PLUMB_LAW_MUTUAL && !plumb_is_null(d->body)
                ? "body is set; a mutual law has none"
-           : replaces && d->kind != PLUMB_LAW_UNIFORM && d->kind != PLUMB_LAW_ATTRACTOR
-               ? "combine is replace; only uniform laws and attractors do"
+           : replaces && (d->kind == PLUMB_LAW_MAGNETIC || d->kind == PLUMB_LAW_MUTUAL)
+               ? "combine is replace; only uniform laws, attractors and formulas do"
                : NULL;
 }
 
-bool pl_law_desc_is_sound(const plumb_law_desc *d)
+bool pl_law_desc_is_sound(const pl_law_data *d)
 {
     choice choices[CHOICES];
     number numbers[NUMBERS];
@@ -91,7 +92,7 @@ bool pl_law_desc_is_sound(const plumb_law_desc *d)
     return sound;
 }
 
-static plumb_result check_numbers(const plumb_world *world, const char *fn, const plumb_law_desc *d)
+static plumb_result check_numbers(const plumb_world *world, const char *fn, const pl_law_data *d)
 {
     number numbers[NUMBERS];
     list_numbers(d, numbers);
@@ -108,9 +109,8 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn, cons
     return PLUMB_OK;
 }
 
-static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_law_desc *d)
+static plumb_result check_data(const plumb_world *world, const char *fn, const pl_law_data *d)
 {
-    PL_TRY(PL_CHECK_HAS(world, fn, "a law", LAWS, "laws"));
     choice choices[CHOICES];
     list_choices(d, choices);
     for (int i = 0; i < CHOICES; ++i) {
@@ -124,9 +124,103 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
                        -PLUMB_LAW_PRIORITY_MOST, PLUMB_LAW_PRIORITY_MOST);
     }
     PL_TRY(check_numbers(world, fn, d));
-    if (discord(d) != NULL) {
-        return pl_fail(world, PLUMB_E_RANGE, fn, "%s", discord(d));
+    return discord(d) == NULL ? PLUMB_OK : pl_fail(world, PLUMB_E_RANGE, fn, "%s", discord(d));
+}
+
+//---- formulas ------------------------------------------------------------------------------------
+
+// Texts that do not go together; NULL: they do.
+static const char *text_discord(const plumb_law_desc *d)
+{
+    const bool any = d->formula_x != NULL || d->formula_y != NULL || d->potential != NULL;
+    return d->kind != PLUMB_LAW_FORMULA
+               ? (any ? "a formula is set; only laws of the kind formula have one" : NULL)
+           : !any ? "a formula needs formula_x, formula_y or potential"
+           : d->potential != NULL && (d->formula_x != NULL || d->formula_y != NULL)
+               ? "potential is set with components; a formula has either"
+               : NULL;
+}
+
+// The program of a descriptor, with copies of its texts.
+static plumb_result check_formula(const plumb_world *world, const char *fn, const plumb_law_desc *d,
+                                  pl_law_formula *out)
+{
+    const bool is_potential = d->potential != NULL;
+    const char *const texts[] = { is_potential ? d->potential : d->formula_x, d->formula_y };
+    pl_formula_fault fault;
+    if (text_discord(d) != NULL) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "%s", text_discord(d));
     }
+    if (d->kind != PLUMB_LAW_FORMULA) {
+        return PLUMB_OK;
+    }
+    if (!pl_formula_compile(texts, is_potential, &out->program, &fault)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "%s: %s",
+                       is_potential      ? "potential"
+                       : fault.text == 0 ? "formula_x"
+                                         : "formula_y",
+                       fault.says);
+    }
+    memset(out->texts, 0, sizeof out->texts); // behind their ends, too: they are saved
+    for (int i = 0; i < 2; ++i) {
+        if (texts[i] != NULL) {
+            memcpy(out->texts[i], texts[i], strlen(texts[i]));
+        }
+    }
+    return PLUMB_OK;
+}
+
+// Its texts make its program, and no other bits.
+bool pl_law_formula_is_sound(const pl_law_formula *formula)
+{
+    const bool is_potential = formula->program.is_potential != 0;
+    const char *texts[2];
+    bool sound = true;
+    pl_formula made;
+    pl_formula_fault fault;
+    for (int i = 0; i < 2; ++i) {
+        const char *text = formula->texts[i];
+        const char *end = memchr(text, 0, PL_FORMULA_TEXT);
+        for (const char *p = end; p != NULL && p < text + PL_FORMULA_TEXT && sound; ++p) {
+            sound = *p == 0;
+        }
+        sound = sound && end != NULL;
+        texts[i] = end == text ? NULL : text;
+    }
+    return sound &&
+           (is_potential ? texts[0] != NULL && texts[1] == NULL
+                         : texts[0] != NULL || texts[1] != NULL) &&
+           pl_formula_compile(texts, is_potential, &made, &fault) &&
+           memcmp(&made, &formula->program, sizeof made) == 0;
+}
+
+static void give_texts(const pl_law_formula *formula, plumb_law_desc *to)
+{
+    const bool is_potential = formula->program.is_potential != 0;
+    const char *first = formula->texts[0][0] != 0 ? formula->texts[0] : NULL;
+    to->formula_x = is_potential ? NULL : first;
+    to->formula_y = formula->texts[1][0] != 0 ? formula->texts[1] : NULL;
+    to->potential = is_potential ? first : NULL;
+}
+
+//---- laws ----------------------------------------------------------------------------------------
+
+static pl_law_data data_of(const plumb_law_desc *from)
+{
+    pl_law_data data, *to = &data;
+    memset(to, 0, sizeof *to);
+    PL_LAW_DESC(PL_COPY_MEMBER)
+    return data;
+}
+
+// What a law is to be, checked.
+static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_law_desc *d,
+                               pl_law_formula *formula)
+{
+    PL_TRY(PL_CHECK_HAS(world, fn, "a law", LAWS, "laws"));
+    const pl_law_data data = data_of(d);
+    PL_TRY(check_data(world, fn, &data));
+    PL_TRY(check_formula(world, fn, d, formula));
     if (pl_is_wrapped(world)) {
         return pl_fail(world, PLUMB_E_STATE, fn, "the world wraps around; one with laws must not");
     }
@@ -145,36 +239,49 @@ static plumb_result check_law(const plumb_world *world, const char *fn, plumb_la
                                      (unsigned)law.entity.index, (unsigned)law.entity.generation);
 }
 
-//---- laws ----------------------------------------------------------------------------------------
-
-static bool is_same(const plumb_law_desc *a, const plumb_law_desc *b)
+static bool is_same(const pl_law_data *a, const pl_law_data *b)
 {
     return true PL_LAW_DESC(PL_SAME_MEMBER);
 }
 
-static void copy(plumb_law_desc *to, const plumb_law_desc *from){ PL_LAW_DESC(PL_COPY_MEMBER) }
+static bool is_same_formula(const pl_law_formula *a, const pl_law_formula *b)
+{
+    return memcmp(a->texts, b->texts, sizeof a->texts) == 0 &&
+           a->program.is_potential == b->program.is_potential;
+}
+
+static bool reserve_formulas(plumb_world *world, uint32_t more)
+{
+    pl_laws *laws = &world->laws;
+    return pl_buffer_reserve(&world->memory, &laws->formulas,
+                             (laws->formula_count + more) * sizeof(pl_law_formula));
+}
 
 plumb_law plumb_law_create(plumb_world *world, const plumb_law_desc *desc)
 {
     plumb_law law = PLUMB_NULL_INIT;
+    pl_law_formula formula;
     if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
         pl_check_pointer(world, __func__, "desc", desc) != PLUMB_OK ||
-        check_desc(world, __func__, desc) != PLUMB_OK) {
+        check_desc(world, __func__, desc, &formula) != PLUMB_OK) {
         return law;
     }
+    const bool has_formula = desc->kind == PLUMB_LAW_FORMULA;
+    const pl_law_data data = data_of(desc); // the texts may be ours, and move
     pl_laws *laws = &world->laws;
     if (!pl_registry_reserve(&world->memory, &world->registry, 1) ||
-        !pl_buffer_reserve(&world->memory, &laws->items, (laws->count + 1) * sizeof(pl_law))) {
+        !pl_buffer_reserve(&world->memory, &laws->items, (laws->count + 1) * sizeof(pl_law)) ||
+        !reserve_formulas(world, has_formula)) {
         pl_fail_memory(world, __func__);
         return law;
     }
-    pl_law *item = &pl_law_items(laws)[laws->count];
+    const uint32_t row = laws->count++;
+    pl_law *item = &pl_law_items(laws)[row];
     memset(item, 0, sizeof *item); // padding, too: it is saved
-    copy(&item->desc, desc);
-    law.entity = pl_entity_claim(world, law.entity, PLUMB_KIND_LAW, laws->count++);
+    law.entity = pl_entity_claim(world, law.entity, PLUMB_KIND_LAW, row);
     item->entity = law;
-    pl_law_disturb(world, desc);
-    world->schedule_dirty = true;
+    pl_law_become(world, row, &data, has_formula ? &formula : NULL);
+    pl_law_disturb(world, &data);
     return law;
 }
 
@@ -192,7 +299,14 @@ plumb_result plumb_law_settings(const plumb_world *world, plumb_law law, plumb_l
     uint32_t row;
     PL_TRY(check_law(world, __func__, law, &row));
     PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
-    *desc = pl_law_items(&world->laws)[row].desc;
+    const pl_law *item = &pl_law_items(&world->laws)[row];
+    const pl_law_data *from = &item->desc;
+    plumb_law_desc *to = desc;
+    *to = (plumb_law_desc){ 0 };
+    PL_LAW_DESC(PL_COPY_MEMBER)
+    if (item->formula > 0) {
+        give_texts(pl_law_formula_of(&world->laws, item), to);
+    }
     return PLUMB_OK;
 }
 
@@ -202,16 +316,23 @@ plumb_result plumb_law_set(plumb_world *world, plumb_law law, const plumb_law_de
     PL_TRY(check_law(world, __func__, law, &row));
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
-    PL_TRY(check_desc(world, __func__, desc));
+    pl_law_formula formula;
+    PL_TRY(check_desc(world, __func__, desc, &formula));
     pl_law *item = &pl_law_items(&world->laws)[row];
-    if (is_same(&item->desc, desc)) {
+    const bool has_formula = desc->kind == PLUMB_LAW_FORMULA;
+    const pl_law_formula *before = pl_law_formula_of(&world->laws, item);
+    const pl_law_data data = data_of(desc);
+    if (is_same(&item->desc, &data) && (!has_formula || is_same_formula(before, &formula))) {
         return PLUMB_OK; // nothing wakes
     }
+    if (!reserve_formulas(world, has_formula && before == NULL)) {
+        return pl_fail_memory(world, __func__);
+    }
     pl_law_disturb(world, &item->desc);
-    copy(&item->desc, desc);
+    pl_law_become(world, row, &data, has_formula ? &formula : NULL);
     item->placed = false;
     item->x = item->y = 0;
-    pl_law_disturb(world, desc);
+    pl_law_disturb(world, &data);
     return PLUMB_OK;
 }
 

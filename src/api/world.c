@@ -316,6 +316,13 @@ plumb_result plumb_world_set_time(plumb_world *world, double time)
     if (time < 0 || time > 1e12) {
         return pl_fail(world, PLUMB_E_RANGE, __func__, "time is %g; it must be 0 to 1e12", time);
     }
+    for (uint32_t i = 0; i < world->laws.count && time != world->time; ++i) {
+        const pl_law_formula *formula =
+            pl_law_formula_of(&world->laws, &pl_law_items(&world->laws)[i]);
+        if (formula != NULL && formula->program.uses_time != 0) {
+            pl_sleep_disturb_all(world); // it may be another force
+        }
+    }
     world->time = time;
     return PLUMB_OK;
 }

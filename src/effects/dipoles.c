@@ -10,7 +10,7 @@
 // with n = -3/2, -1, -2, -1/2, 0 of 1/r^2, 1/r, 1/r^3, constant, r. Forces are its gradient, torques p x E of the field
 // E1 = -c (q1 f d - p1 f - 2 f' (p1.d) d) of the other, in closed form: no difference of near places is taken. Force and torques
 // of a pair come from one U that does not change when all is moved or turned, so momentum and angular momentum stay to rounding:
-// t1 + t2 + d x F2 = 0. A uniform law turns, p x E, and does not pull. Magnetic laws are out of the plane: they have nothing to do
+// t1 + t2 + d x F2 = 0. A uniform law turns, p x E, and does not pull. In a formula a dipole is two charges, 0.2 mm apart. Magnetic laws are out of the plane: they have nothing to do
 // with a dipole in it.
 //
 // In a substep places and angles are those of its middle, as in law_forces.c: the leapfrog, of second order and symplectic, with a
@@ -24,6 +24,8 @@
 #include "core/sort.h"
 #include "math/trig.h"
 #include "schema/passes.h"
+
+#include <math.h>
 
 bool pl_want_dipoles(const plumb_world *world, const char **reason)
 {
@@ -113,7 +115,7 @@ static pl_dipole_push push_of(double c, const falloff *by, const pl_pole *a, con
 
 static bool acts_between(const pl_law_now *law, const pl_pole *a, const pl_pole *b)
 {
-    const plumb_law_desc *d = law->desc;
+    const pl_law_data *d = law->desc;
     return d->kind == PLUMB_LAW_MUTUAL && d->hold == PLUMB_LAW_ON_CHARGE &&
            (has_dipole(a) || has_dipole(b)) && pl_law_names(d, a->body) && pl_law_names(d, b->body);
 }
@@ -144,18 +146,81 @@ double pl_dipole_energy(const pl_law_now *law, const pl_pole *a, const pl_pole *
 
 static bool acts_on(const pl_law_now *law, const pl_pole *pole)
 {
-    const plumb_law_desc *d = law->desc;
-    return (d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_ATTRACTOR) &&
+    const pl_law_data *d = law->desc;
+    return (d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_ATTRACTOR ||
+            d->kind == PLUMB_LAW_FORMULA) &&
            d->hold == PLUMB_LAW_ON_CHARGE && has_dipole(pole) && pl_law_names(d, pole->body);
 }
+
+//---- formulas ------------------------------------------------------------------------------------
+
+// [m] from the centre to either end of a dipole in a formula, whose slopes by the place are not known: there it is two charges.
+#define END 1e-4
+
+// The way from the centre to the positive end, and its charge [C].
+static double end_of(const pl_pole *pole, double way[2])
+{
+    const double size = sqrt(pole->mx * pole->mx + pole->my * pole->my);
+    way[0] = END * pole->mx / size, way[1] = END * pole->my / size;
+    return size / (2 * END);
+}
+
+// Of a charge, as if the law had no end: whether it reaches so far is asked for the body.
+static void formula_at(const plumb_world *world, const pl_law_now *law, const pl_law_state *at,
+                       double time, double out[2])
+{
+    pl_law_data endless = *law->desc;
+    pl_law_now free = *law;
+    pl_law_body charge = { .row = PL_NONE, .mass = 1, .charge = 1, .categories = UINT64_MAX };
+    endless.radius = 0, endless.half = (plumb_vec2){ 0, 0 };
+    free.desc = &endless, free.reach = INFINITY;
+    const pl_law_system one = { .world = world,
+                                .laws = &free,
+                                .law_count = 1,
+                                .bodies = &charge,
+                                .count = 1,
+                                .replaces = true,
+                                .formulas = true };
+    pl_laws_pull(&one, at, time, out, NULL);
+}
+
+pl_dipole_push pl_dipole_in_formula(const plumb_world *world, const pl_law_now *law,
+                                    const pl_pole *pole, const pl_law_state *state, double time)
+{
+    double way[2], ahead[2], behind[2];
+    if (!acts_on(law, pole)) {
+        return (pl_dipole_push){ 0 };
+    }
+    const double q = end_of(pole, way);
+    pl_law_state at = *state;
+    at.x = pole->x + way[0], at.y = pole->y + way[1];
+    formula_at(world, law, &at, time, ahead);
+    at.x = pole->x - way[0], at.y = pole->y - way[1];
+    formula_at(world, law, &at, time, behind);
+    return (pl_dipole_push){ .fx = q * (ahead[0] - behind[0]),
+                             .fy = q * (ahead[1] - behind[1]),
+                             .torque = q * (way[0] * (ahead[1] + behind[1]) -
+                                            way[1] * (ahead[0] + behind[0])) };
+}
+
+static double energy_in_formula(const plumb_world *world, const pl_law_now *law,
+                                const pl_pole *pole)
+{
+    double way[2];
+    const double q = end_of(pole, way);
+    return q * (pl_formula_potential(world, law, pole->x + way[0], pole->y + way[1]) -
+                pl_formula_potential(world, law, pole->x - way[0], pole->y - way[1]));
+}
+
+//---- places --------------------------------------------------------------------------------------
 
 // The charge of an attractor; its strength counts apart.
 static const pl_law_body unit = { .charge = 1 };
 
 pl_dipole_push pl_dipole_in(const pl_law_now *law, const pl_pole *pole, double x, double y)
 {
-    const plumb_law_desc *d = law->desc;
-    if (!acts_on(law, pole)) {
+    const pl_law_data *d = law->desc;
+    if (!acts_on(law, pole) || d->kind == PLUMB_LAW_FORMULA) {
         return (pl_dipole_push){ 0 };
     }
     if (d->kind == PLUMB_LAW_UNIFORM) {
@@ -167,10 +232,15 @@ pl_dipole_push pl_dipole_in(const pl_law_now *law, const pl_pole *pole, double x
     return push_of((double)d->strength, &by, &source, pole);
 }
 
-double pl_dipole_energy_in(const pl_law_now *law, const pl_pole *pole)
+double pl_dipole_energy_in(const plumb_world *world, const pl_law_now *law, const pl_pole *pole)
 {
-    const plumb_law_desc *d = law->desc;
+    const pl_law_data *d = law->desc;
     const bool endless = pl_law_is_endless(d);
+    if (d->kind == PLUMB_LAW_FORMULA) {
+        const bool known = acts_on(law, pole) && d->combine == PLUMB_LAW_ADD && d->radius == 0 &&
+                           d->half.x == 0 && law->formula->is_potential;
+        return known ? energy_in_formula(world, law, pole) : 0;
+    }
     if (!acts_on(law, pole) || d->combine == PLUMB_LAW_REPLACE || law->carrier == pole->body->row ||
         (d->kind == PLUMB_LAW_UNIFORM && !endless)) {
         return 0;
@@ -221,7 +291,7 @@ static void push_one(const passage *p, const pl_pole *pole, bool alone, pl_dipol
     int floor = INT32_MIN;
     for (uint32_t k = 0; k < step->law_count; ++k) {
         const pl_law_now *law = &pl_laws_now(p->world)[k];
-        const plumb_law_desc *d = law->desc;
+        const pl_law_data *d = law->desc;
         const bool led = law->member != PL_NONE;
         if (!acts_on(law, pole) || d->priority < floor || law->carrier == pole->body->row ||
             (alone && led)) {
@@ -235,7 +305,10 @@ static void push_one(const passage *p, const pl_pole *pole, bool alone, pl_dipol
         if (d->combine == PLUMB_LAW_REPLACE) {
             floor = d->priority;
         }
-        const pl_dipole_push more = pl_dipole_in(law, pole, x, y);
+        const pl_law_state at = pl_law_middle(p->world, pole->body, p->h);
+        const pl_dipole_push more = law->formula != NULL
+                                        ? pl_dipole_in_formula(p->world, law, pole, &at, p->time)
+                                        : pl_dipole_in(law, pole, x, y);
         add(out, more.fx, more.fy, more.torque);
         if (led) {
             add(&p->pushes[law->member], -more.fx, -more.fy, 0);

@@ -1,38 +1,22 @@
 // law_field.c - laws as a field: what they give at a place, the energy that bodies have in them.
 //
 // Potentials are those of the pulls in law_forces.c: -q^(-1/2), log(q) / 2, -1 / (2 q), q^(1/2), q / 2 times k; of a law
-// that ends at a distance, 0 there. Zones and what replaces have none.
+// that ends at a distance, 0 there. Zones, formulas but potentials without end, and what replaces have none.
 //
 // Reads: laws, bodies. Writes: nothing. Cost: O(bodies laws), mutual laws O(those that attract x all).
 #include "effects/laws.h"
 
+#include "math/lanes.h"
 #include "world/push.h"
 #include "world/rows.h"
 
 #include <math.h>
-#include <string.h>
-
-// ln of a number above 0: its exponent, and 2 artanh((m - 1) / (m + 1)) of its mantissa m, 1 <= m < 2, by its series.
-static double logarithm(double v)
-{
-    uint64_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    const int exponent = (int)(bits >> 52) - 1023;
-    bits = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1023) << 52;
-    memcpy(&v, &bits, sizeof v);
-    const double y = (v - 1) / (v + 1), q = y * y;
-    double sum = 0;
-    for (int k = 35; k > 0; k -= 2) {
-        sum = sum * q + 1.0 / k;
-    }
-    return exponent * 0.693147180559945309417 + 2 * y * sum;
-}
 
 static double potential(plumb_falloff kind, double q)
 {
     switch (kind) {
     case PLUMB_FALLOFF_INVERSE:
-        return q > 0 ? logarithm(q) / 2 : 0;
+        return q > 0 ? pl_lane_log(q) / 2 : 0;
     case PLUMB_FALLOFF_CUBE:
         return q > 0 ? -1 / (2 * q) : 0;
     case PLUMB_FALLOFF_NONE:
@@ -56,15 +40,22 @@ static double potential_of(const pl_law_now *law, double square)
                               potential(law->desc->falloff, end + law->square);
 }
 
-static double of_one(const pl_law_now *law, const pl_law_body *body, double x, double y)
+static double of_one(const plumb_world *world, const pl_law_now *law, const pl_law_body *body,
+                     double x, double y)
 {
-    const plumb_law_desc *d = law->desc;
+    const pl_law_data *d = law->desc;
     const double hold = pl_law_hold_of(d, body), dx = x - law->x, dy = y - law->y;
     if (d->combine == PLUMB_LAW_REPLACE || law->carrier == body->row) {
         return 0;
     }
     if (d->kind == PLUMB_LAW_ATTRACTOR) {
         return hold * (double)d->strength * potential_of(law, dx * dx + dy * dy);
+    }
+    if (law->formula != NULL) {
+        const bool ends = d->radius > 0 || d->half.x > 0;
+        return ends || !law->formula->is_potential || hold == 0
+                   ? 0
+                   : hold * pl_formula_potential(world, law, x, y);
     }
     const bool endless = d->kind == PLUMB_LAW_UNIFORM && pl_law_is_endless(d);
     return endless ? -hold * ((double)d->vector.x * x + (double)d->vector.y * y) : 0;
@@ -84,7 +75,7 @@ static uint32_t row_of(const plumb_world *world, uint32_t i)
                : pl_partition_first(world, PL_PART_ASLEEP) + (i - world->dynamic_count);
 }
 
-static pl_law_state state_of(const plumb_world *world, uint32_t row)
+pl_law_state pl_law_state_of(const plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
     return (pl_law_state){ (double)b->center_x[row] + (double)b->residual_x[row],
@@ -96,15 +87,15 @@ static pl_law_state state_of(const plumb_world *world, uint32_t row)
 static double of_body(const plumb_world *world, const pl_law_now *law, uint32_t i, uint32_t count)
 {
     const pl_law_body body = pl_law_body_of(world, row_of(world, i));
-    const pl_law_state at = state_of(world, body.row);
+    const pl_law_state at = pl_law_state_of(world, body.row);
     const pl_pole pole = pl_pole_of(world, &body);
     double sum = 0;
     if (law->desc->kind != PLUMB_LAW_MUTUAL) {
-        return of_one(law, &body, at.x, at.y) + pl_dipole_energy_in(law, &pole);
+        return of_one(world, law, &body, at.x, at.y) + pl_dipole_energy_in(world, law, &pole);
     }
     for (uint32_t k = i + 1; k < count; ++k) {
         const pl_law_body other = pl_law_body_of(world, row_of(world, k));
-        const pl_law_state there = state_of(world, other.row);
+        const pl_law_state there = pl_law_state_of(world, other.row);
         const pl_pole far = pl_pole_of(world, &other);
         const double dx = there.x - at.x, dy = there.y - at.y;
         sum += of_pair(law, &body, &other, dx * dx + dy * dy) + pl_dipole_energy(law, &pole, &far);
@@ -131,7 +122,7 @@ void pl_laws_at(const pl_law_system *of, const pl_law_state *state, double out[2
 {
     const plumb_world *world = of->world;
     const uint32_t count = world->dynamic_count + world->asleep_count;
-    pl_laws_pull(of, state, 0, out);
+    pl_laws_pull(of, state, 0, out, NULL);
     for (uint32_t k = 0; k < of->law_count; ++k) {
         const pl_law_now *law = &of->laws[k];
         for (uint32_t i = 0; i < count && law->desc->kind == PLUMB_LAW_MUTUAL; ++i) {
@@ -140,7 +131,7 @@ void pl_laws_at(const pl_law_system *of, const pl_law_state *state, double out[2
                 continue;
             }
             const pl_law_body body = pl_law_body_of(world, row);
-            const pl_law_state at = state_of(world, row);
+            const pl_law_state at = pl_law_state_of(world, row);
             const double dx = at.x - state->x, dy = at.y - state->y, r = dx * dx + dy * dy;
             const double f = pl_law_pair(law, of->bodies, &body) * pl_law_falloff(law, r);
             const pl_pole from = pl_pole_of(world, &body);
@@ -155,9 +146,14 @@ void pl_laws_at(const pl_law_system *of, const pl_law_state *state, double out[2
 // A law by itself, and one body.
 static pl_law_system system_of(const plumb_world *world, const pl_law_now *law, pl_law_body *body)
 {
-    return (pl_law_system){
-        .world = world, .laws = law, .law_count = 1, .bodies = body, .count = 1, .replaces = true
-    };
+    return (pl_law_system){ .world = world,
+                            .laws = law,
+                            .law_count = 1,
+                            .bodies = body,
+                            .count = 1,
+                            .replaces = true,
+                            .formulas = law->formula != NULL,
+                            .others = true };
 }
 
 // The highest priority of those that replace others there; INT32_MIN: nothing is replaced.
@@ -165,7 +161,7 @@ static int floor_at(const plumb_world *world, plumb_law_hold hold, const pl_law_
 {
     int floor = INT32_MIN;
     for (uint32_t k = 0; k < world->laws.count; ++k) {
-        const plumb_law_desc *d = &pl_law_items(&world->laws)[k].desc;
+        const pl_law_data *d = &pl_law_items(&world->laws)[k].desc;
         pl_law_now law;
         if (d->combine == PLUMB_LAW_REPLACE && d->hold == hold && d->priority > floor &&
             pl_law_place(world, &pl_law_items(&world->laws)[k], &law) &&
@@ -190,10 +186,10 @@ void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double c
     for (uint32_t k = 0; k < world->laws.count; ++k) {
         pl_law_now law;
         double a[2];
-        const plumb_law_desc *d = &pl_law_items(&world->laws)[k].desc;
+        const pl_law_data *d = &pl_law_items(&world->laws)[k].desc;
         const bool placed = pl_law_place(world, &pl_law_items(&world->laws)[k], &law);
-        const bool over = d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_ATTRACTOR;
-        if (!placed || (over && d->priority < floor[d->hold])) {
+        const bool others = d->kind == PLUMB_LAW_MAGNETIC || d->kind == PLUMB_LAW_MUTUAL;
+        if (!placed || (!others && d->priority < floor[d->hold])) {
             continue;
         }
         const pl_law_system one = system_of(world, &law, &body);
@@ -211,7 +207,10 @@ static void add_dipole(const plumb_world *world, const pl_law_now *law, const pl
     const pl_bodies *b = &world->bodies;
     const pl_pole pole = pl_pole_of(world, body);
     if (pl_law_is_endless(law->desc) || pl_law_reaches(law, pole.x - law->x, pole.y - law->y)) {
-        const pl_dipole_push push = pl_dipole_in(law, &pole, law->x, law->y);
+        const pl_law_state at = pl_law_state_of(world, body->row);
+        const pl_dipole_push push = law->formula != NULL
+                                        ? pl_dipole_in_formula(world, law, &pole, &at, 0)
+                                        : pl_dipole_in(law, &pole, law->x, law->y);
         out[0] += push.fx / body->mass, out[1] += push.fy / body->mass;
         out[2] += push.torque * (double)(b->inv_inertia[body->row] * b->extent[body->row]);
     }
@@ -230,14 +229,16 @@ bool pl_laws_stir(const plumb_world *world, uint32_t row)
 {
     const pl_law_step *s = &world->laws.step;
     pl_law_body body = pl_law_body_of(world, row);
-    const pl_law_state state = state_of(world, row);
+    const pl_law_state state = pl_law_state_of(world, row);
     const double least = (double)pl_push_tolerance(world);
     const bool source = is_source(s, pl_laws_now(world), &body); // laws.c asks for its rest
     for (uint32_t i = 0; i < s->law_count; ++i) {
         pl_law_now law = pl_laws_now(world)[i];
         double a[3] = { 0, 0, 0 };
         const bool mutual = law.desc->kind == PLUMB_LAW_MUTUAL && s->source_count > 0 && !source;
-        if ((!law.moved && !mutual) || law.carrier == row) {
+        const bool changes = law.formula != NULL && law.formula->uses_time != 0 &&
+                             pl_law_has_dipole(&body); // of others law_formula.c asks
+        if ((!law.moved && !mutual && !changes) || law.carrier == row) {
             continue;
         }
         law.member = PL_NONE;

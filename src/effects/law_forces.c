@@ -18,6 +18,9 @@
 
 #include <math.h>
 
+// [-] the determinant of what a velocity in the middle is solved for.
+#define SLOWEST 0.25
+
 bool pl_law_reaches(const pl_law_now *law, double dx, double dy)
 {
     const double hx = (double)law->desc->half.x, hy = (double)law->desc->half.y;
@@ -59,7 +62,37 @@ static void offset(const pl_law_now *law, const pl_law_state *states, const pl_l
     d[1] = at->y - (follows ? states[law->member].y : law->y + law->vy * time);
 }
 
-// The body of index i, from uniform laws and attractors.
+// A law takes hold of the body of index i and reaches it; the way to it, but of a law without end.
+static bool reach_for(const pl_law_system *system, const pl_law_now *law,
+                      const pl_law_state *states, uint32_t i, double time, double way[2])
+{
+    const bool is_elsewhere = system->alone && law->member != PL_NONE;
+    way[0] = way[1] = 0;
+    if (pl_law_hold_of(law->desc, &system->bodies[i]) == 0 || is_elsewhere || law->member == i) {
+        return false;
+    }
+    if (pl_law_is_endless(law->desc)) {
+        return true;
+    }
+    offset(law, states, &states[i], time, way);
+    return pl_law_reaches(law, way[0], way[1]);
+}
+
+bool pl_law_acts(const pl_law_system *system, const pl_law_now *law, const pl_law_state *states,
+                 uint32_t i, double time)
+{
+    double way[2];
+    return reach_for(system, law, states, i, time, way);
+}
+
+// Where one does, others may not act; with a place, it gives a force here.
+static bool is_placed(const pl_law_data *d)
+{
+    return d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_ATTRACTOR ||
+           (d->kind == PLUMB_LAW_FORMULA && d->combine == PLUMB_LAW_REPLACE);
+}
+
+// The body of index i, from uniform laws and attractors; formulas may replace them.
 static void pull_one(const pl_law_system *system, const pl_law_state *states, uint32_t i,
                      double time, double *out)
 {
@@ -67,24 +100,20 @@ static void pull_one(const pl_law_system *system, const pl_law_state *states, ui
     int floor[] = { INT32_MIN, INT32_MIN };
     for (uint32_t k = 0; k < system->law_count; ++k) {
         const pl_law_now *law = &system->laws[k];
-        const plumb_law_desc *d = law->desc;
-        const double hold = pl_law_hold_of(d, body);
-        const bool is_elsewhere = system->alone && law->member != PL_NONE;
-        if (hold == 0 || is_elsewhere || law->member == i || d->kind == PLUMB_LAW_MAGNETIC ||
-            d->kind == PLUMB_LAW_MUTUAL || d->priority < floor[d->hold] ||
-            (!system->replaces && pl_law_is_endless(d))) {
+        const pl_law_data *d = law->desc;
+        double way[2];
+        if (!is_placed(d) || d->priority < floor[d->hold] ||
+            (!system->replaces && pl_law_is_endless(d)) ||
+            !reach_for(system, law, states, i, time, way)) {
             continue;
-        }
-        double way[2] = { 0, 0 };
-        if (!pl_law_is_endless(d)) {
-            offset(law, states, &states[i], time, way);
-            if (!pl_law_reaches(law, way[0], way[1])) {
-                continue;
-            }
         }
         if (d->combine == PLUMB_LAW_REPLACE) {
             floor[d->hold] = d->priority;
         }
+        if (d->kind == PLUMB_LAW_FORMULA) {
+            continue; // law_formula.c
+        }
+        const double hold = pl_law_hold_of(d, body);
         const bool pulls = d->kind == PLUMB_LAW_ATTRACTOR;
         const double r = way[0] * way[0] + way[1] * way[1];
         const double k_f = pulls ? -(double)d->strength * pl_law_falloff(law, r) * hold : hold;
@@ -109,7 +138,7 @@ static void pull_one(const pl_law_system *system, const pl_law_state *states, ui
 
 double pl_law_pair(const pl_law_now *law, const pl_law_body *a, const pl_law_body *b)
 {
-    const plumb_law_desc *d = law->desc;
+    const pl_law_data *d = law->desc;
     const double factor = d->hold == PLUMB_LAW_ON_CHARGE  ? -1
                           : a->attraction > b->attraction ? a->attraction
                                                           : b->attraction;
@@ -135,19 +164,42 @@ static void pull_pairs(const pl_law_system *system, const pl_law_now *law,
     }
 }
 
-void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time, double *out)
+void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time, double *out,
+                  double *slopes)
 {
     for (uint32_t i = 0; i < 2 * system->count; ++i) {
         out[i] = 0;
+    }
+    for (uint32_t i = 0; i < 4 * system->count && slopes != NULL; ++i) {
+        slopes[i] = 0;
     }
     for (uint32_t k = 0; k < system->law_count && system->sources > 0; ++k) {
         if (system->laws[k].desc->kind == PLUMB_LAW_MUTUAL) {
             pull_pairs(system, &system->laws[k], states, out);
         }
     }
-    for (uint32_t i = 0; i < system->count; ++i) {
+    for (uint32_t i = 0; i < system->count && system->others; ++i) {
         pull_one(system, states, i, time, out);
     }
+    if (system->formulas) {
+        pl_formulas_pull(system, states, time, out, slopes);
+    }
+}
+
+// The velocity on the way, v + s h k, has the acceleration a + s h J k = k. In the middle, s = 1/2, what turns keeps its speed; drag
+// of a mean rate z / h needs the end the more, the stronger it is, or it would overshoot: with s = 1/2 + z^2 / (8 + 2 z^2) it never
+// does, and the order stays.
+void pl_law_kick(const double a[2], const double slopes[4], double h, double out[2])
+{
+    const double z = -h / 2 * (slopes[0] + slopes[3]), square = z > 0 ? z * z : 0;
+    const double part = h * (0.5 + 0.5 * square / (4 + square));
+    const double xx = 1 - part * slopes[0], xy = -part * slopes[1];
+    const double yx = -part * slopes[2], yy = 1 - part * slopes[3];
+    const double det = xx * yy - xy * yx;
+    const bool turns_over = !(det > SLOWEST); // what drives so hard is not solved for
+    const double ax = turns_over ? a[0] : (yy * a[0] - xy * a[1]) / det;
+    const double ay = turns_over ? a[1] : (xx * a[1] - yx * a[0]) / det;
+    out[0] = ax, out[1] = ay;
 }
 
 double pl_laws_spin(const pl_law_system *system, const pl_law_body *body, const pl_law_state *state,
@@ -185,7 +237,9 @@ static pl_law_system system_of(const plumb_world *world, pl_law_body *bodies, ui
                             .count = count,
                             .sources = sources,
                             .gravity = world->effects.gravity,
-                            .replaces = s->replaces };
+                            .replaces = s->replaces,
+                            .formulas = s->formulas,
+                            .others = s->others };
 }
 
 pl_law_state pl_law_middle(const plumb_world *world, const pl_law_body *body, double h)
@@ -203,17 +257,26 @@ pl_law_state pl_law_middle(const plumb_world *world, const pl_law_body *body, do
     return s;
 }
 
-// a, and the turn, become what the solver is to add to the velocity in a second.
+// a, and the turn, become what the solver is to add to the velocity in a second. `slopes`: NULL, or of a body that a formula
+// of velocities may act on.
 static void give(const passage *p, const pl_law_system *system, const pl_law_body *body,
-                 const pl_law_state *state, const double a[2])
+                 const pl_law_state *state, const double a[2], const double *slopes)
 {
     const uint32_t flags = p->world->bodies.flags[body->row];
     pl_solver_motion *motion = &pl_solver_motions(&p->world->solver)[body->slot];
     const double own = body->time * body->time;
     double ax = (double)motion->ax + own * (a[0] + body->ax);
     double ay = (double)motion->ay + own * (a[1] + body->ay);
-    const double t = pl_laws_spin(system, body, state, p->time) * body->time * p->h / 2;
-    if (t != 0) {
+    const double w = pl_laws_spin(system, body, state, p->time) * body->time, t = w * p->h / 2;
+    if (slopes != NULL) {
+        // The turn is one more slope: what follows is Boris where there is no other.
+        const double all[] = { own * slopes[0], own * slopes[1] + w, own * slopes[2] - w,
+                               own * slopes[3] };
+        const double from[] = { ax + w * state->vy, ay - w * state->vx };
+        double kick[2];
+        pl_law_kick(from, all, p->h, kick);
+        ax = kick[0], ay = kick[1];
+    } else if (t != 0) {
         const double vx = state->vx + p->h / 2 * ax, vy = state->vy + p->h / 2 * ay;
         const double s = 2 * t / (1 + t * t);
         ax += s * (vy - t * vx) / p->h;
@@ -232,8 +295,36 @@ static void push_single(void *context, uint32_t first, uint32_t count)
         system.alone = true;
         const pl_law_state state = pl_law_middle(p->world, body, p->h);
         double a[2];
-        pl_laws_pull(&system, &state, p->time, a);
-        give(p, &system, body, &state, a);
+        pl_laws_pull(&system, &state, p->time, a, NULL);
+        give(p, &system, body, &state, a, NULL);
+    }
+}
+
+// The same in blocks, for formulas. A body has the same bits whoever else is in its block.
+static void push_block(const passage *p, const pl_keyed *pushed, uint32_t count)
+{
+    pl_law_body bodies[PL_LAW_BLOCK];
+    pl_law_state states[PL_LAW_BLOCK];
+    double a[2 * PL_LAW_BLOCK], slopes[4 * PL_LAW_BLOCK];
+    pl_law_system system = system_of(p->world, bodies, count, 0);
+    system.alone = true;
+    for (uint32_t i = 0; i < count; ++i) {
+        bodies[i] = pl_law_bodies(p->world)[pushed[i].value];
+        states[i] = pl_law_middle(p->world, &bodies[i], p->h);
+    }
+    pl_laws_pull(&system, states, p->time, a, slopes);
+    for (uint32_t i = 0; i < count; ++i) {
+        give(p, &system, &bodies[i], &states[i], &a[2 * i],
+             bodies[i].dragged ? &slopes[4 * i] : NULL);
+    }
+}
+
+static void push_blocks(void *context, uint32_t first, uint32_t count)
+{
+    const passage *p = context;
+    for (uint32_t i = 0; i < count; i += PL_LAW_BLOCK) {
+        const uint32_t left = count - i;
+        push_block(p, p->pushed + first + i, left < PL_LAW_BLOCK ? left : PL_LAW_BLOCK);
     }
 }
 
@@ -243,20 +334,21 @@ static void push_coupled(const passage *p)
     const pl_law_system system =
         system_of(p->world, pl_law_bodies(p->world), s->coupled_count, s->source_count);
     pl_law_state *states = s->states.data;
-    double *a = s->forces.data;
+    double *a = s->forces.data, *slopes = a + 2 * (size_t)s->coupled_count;
     for (uint32_t i = 0; i < system.count; ++i) {
         states[i] = pl_law_middle(p->world, &system.bodies[i], p->h);
     }
-    pl_laws_pull(&system, states, p->time, a);
+    pl_laws_pull(&system, states, p->time, a, slopes);
     for (uint32_t i = 0; i < system.count; ++i) {
-        if (system.bodies[i].slot != PL_NONE) {
-            give(p, &system, &system.bodies[i], &states[i], &a[2 * i]);
+        const pl_law_body *body = &system.bodies[i];
+        if (body->slot != PL_NONE) {
+            give(p, &system, body, &states[i], &a[2 * i], body->dragged ? &slopes[4 * i] : NULL);
         }
     }
 }
 
-// So many bodies are worth a thread.
-#define LEAST 64
+// So many bodies are worth a thread: blocks of formulas are not cut.
+#define LEAST (2 * PL_LAW_BLOCK)
 
 void pl_law_row(pl_substep *sub)
 {
@@ -268,7 +360,8 @@ void pl_law_row(pl_substep *sub)
                   .pushed = all + mine.first,
                   .h = (double)sub->h,
                   .time = (double)sub->h * (sub->number + 0.5) };
-    pl_tasks_ranges(sub->tasks, mine.end - mine.first, LEAST, push_single, &p);
+    pl_tasks_ranges(sub->tasks, mine.end - mine.first, LEAST,
+                    s->formulas ? push_blocks : push_single, &p);
     if (s->couples && sub->cluster == pl_clusters(&sub->world->solver)) {
         push_coupled(&p);
     }

@@ -22,7 +22,10 @@
 
 bool pl_want_laws(const plumb_world *world, const char **reason)
 {
-    const bool wanted = world->laws.count > 0 && world->dynamic_count > 0;
+    bool wanted = world->laws.count > 0 && world->dynamic_count > 0;
+    for (uint32_t i = 0; i < world->laws.count && world->asleep_count > 0; ++i) {
+        wanted |= pl_law_is_restless(&world->laws, &pl_law_items(&world->laws)[i]);
+    }
     *reason = wanted                  ? "the world has laws"
               : world->laws.count > 0 ? "no body is awake for laws to act on"
                                       : "the world has no law";
@@ -47,9 +50,9 @@ plumb_orbit_desc pl_orbits_of(const plumb_world *world)
 void pl_laws_free(pl_memory *memory, pl_laws *laws)
 {
     pl_law_step *s = &laws->step;
-    pl_buffer *buffers[] = { &laws->items, &laws->orbits, &s->laws,   &s->ways,
-                             &s->bodies,   &s->order,     &s->states, &s->forces,
-                             &s->table,    &s->flights,   &s->poles,  &s->pulled };
+    pl_buffer *buffers[] = { &laws->items, &laws->formulas, &laws->orbits, &s->laws,   &s->ways,
+                             &s->bodies,   &s->order,       &s->states,    &s->forces, &s->table,
+                             &s->flights,  &s->poles,       &s->pulled };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -76,6 +79,7 @@ static bool carry(const plumb_world *world, pl_law_now *law)
         const double time = (double)pl_time_scale(world, row);
         law->vx = time * ((double)b->vx[row] - w * ry);
         law->vy = time * ((double)b->vy[row] + w * rx);
+        law->w = time * w;
     }
     law->carrier = central && row < world->dynamic_count ? row : PL_NONE;
     const double lc = law->c;
@@ -86,9 +90,11 @@ static bool carry(const plumb_world *world, pl_law_now *law)
 
 bool pl_law_place(const plumb_world *world, const pl_law *item, pl_law_now *law)
 {
-    const plumb_law_desc *d = &item->desc;
+    const pl_law_data *d = &item->desc;
     const double hx = (double)d->half.x, hy = (double)d->half.y, radius = (double)d->radius;
+    const pl_law_formula *formula = pl_law_formula_of(&world->laws, item);
     *law = (pl_law_now){ .desc = d,
+                         .formula = formula != NULL ? &formula->program : NULL,
                          .x = (double)d->position.x,
                          .y = (double)d->position.y,
                          .square = (double)d->softening * (double)d->softening,
@@ -101,7 +107,8 @@ bool pl_law_place(const plumb_world *world, const pl_law *item, pl_law_now *law)
     if (!plumb_is_null(d->body) && !carry(world, law)) {
         return false;
     }
-    law->moved = item->placed && (law->x != item->x || law->y != item->y);
+    law->moved = item->placed &&
+                 (law->x != item->x || law->y != item->y || (law->formula != NULL && law->w != 0));
     return true;
 }
 
@@ -158,7 +165,7 @@ pl_law_body pl_law_body_of(const plumb_world *world, uint32_t row)
 
 // What the laws of a step have to do with a body.
 typedef struct role {
-    bool acted_on, coupled, source;
+    bool acted_on, coupled, source, dragged;
 } role;
 
 // One of those that attract is in reach, or nearly.
@@ -189,7 +196,7 @@ static role role_of(const plumb_world *world, const pl_law_body *body, double dt
     const pl_bodies *b = &world->bodies;
     const double x = (double)b->center_x[body->row], y = (double)b->center_y[body->row];
     const double vx = (double)b->vx[body->row], vy = (double)b->vy[body->row];
-    role r = { false, false, false };
+    role r = { false, false, false, false };
     for (uint32_t i = 0; i < s->law_count; ++i) {
         const pl_law_now *law = &pl_laws_now(world)[i];
         if (law->carrier == body->row) {
@@ -211,6 +218,7 @@ static role role_of(const plumb_world *world, const pl_law_body *body, double dt
         const bool is_near = dx * dx + dy * dy <= near * near;
         r.acted_on |= is_near;
         r.coupled |= is_near && law->carrier != PL_NONE;
+        r.dragged |= is_near && law->formula != NULL && law->formula->uses_velocity != 0;
     }
     return r;
 }
@@ -235,7 +243,7 @@ static pl_law_way way_of(const plumb_world *world, uint32_t row)
 static void add_endless(const pl_law_step *s, const pl_law_now *laws, pl_law_body *body)
 {
     for (uint32_t i = 0; i < s->law_count && !s->replaces && body->mass > 0; ++i) {
-        const plumb_law_desc *d = laws[i].desc;
+        const pl_law_data *d = laws[i].desc;
         if (d->kind == PLUMB_LAW_UNIFORM && pl_law_is_endless(d)) {
             const double share = pl_law_hold_of(d, body) / body->mass;
             body->ax += share * (double)d->vector.x;
@@ -268,6 +276,7 @@ static void put_bodies(plumb_world *world, double dt, int round)
             ways[row] = (uint8_t)way_of(world, row);
         }
         body.coupled = r.coupled;
+        body.dragged = r.dragged;
         add_endless(s, pl_laws_now(world), &body);
         pl_law_bodies(world)[s->body_count++] = body;
     }
@@ -340,13 +349,19 @@ static void heed_carriers(plumb_world *world)
     }
 }
 
-static void heed(plumb_world *world)
+static void heed(plumb_world *world, real dt)
 {
     const pl_law_step *s = &world->laws.step;
     const uint32_t sleeping = pl_partition_first(world, PL_PART_ASLEEP);
-    bool moved = s->source_count > 0;
+    bool moved = s->source_count > 0, changes = false;
     for (uint32_t i = 0; i < s->law_count; ++i) {
-        moved |= pl_laws_now(world)[i].moved;
+        const pl_law_now *law = &pl_laws_now(world)[i];
+        moved |= law->moved;
+        changes |= law->formula != NULL && law->formula->uses_time != 0;
+    }
+    moved |= changes && world->settings.dipoles > 0;
+    if (changes && !world->desc.no_sleep) {
+        pl_formulas_heed(world, (double)dt);
     }
     for (uint32_t row = 0; row < world->dynamic_count && moved; ++row) {
         if (pl_laws_stir(world, row)) {
@@ -393,11 +408,13 @@ bool pl_laws_find(plumb_world *world, real dt)
     }
     pl_fill(s->ways.data, PL_LAW_NONE, world->dynamic_count);
     s->law_count = pl_laws_place(world, s->laws.data);
-    s->replaces = false;
+    s->replaces = s->formulas = s->others = false;
     bool couple = false; // else nobody is a source or coupled
     for (uint32_t i = 0; i < s->law_count; ++i) {
         const pl_law_now *law = &pl_laws_now(world)[i];
         s->replaces |= law->desc->combine == PLUMB_LAW_REPLACE;
+        s->formulas |= law->formula != NULL;
+        s->others |= law->formula == NULL || law->desc->combine == PLUMB_LAW_REPLACE;
         couple |= law->desc->kind == PLUMB_LAW_MUTUAL || law->carrier != PL_NONE;
     }
     s->body_count = s->source_count = s->coupled_count = s->pushed_count = 0;
@@ -414,9 +431,9 @@ bool pl_laws_find(plumb_world *world, real dt)
     return pl_orbits_reserve(world) && pl_dipoles_reserve(world) && pl_law_rest_reserve(world);
 }
 
-void pl_laws_settle(plumb_world *world)
+void pl_laws_settle(plumb_world *world, real dt)
 {
-    heed(world);
+    heed(world, dt);
     note_places(world);
 }
 

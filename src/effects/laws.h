@@ -8,7 +8,8 @@
 //---- laws.c: a step ------------------------------------------------------------------------------
 
 // Of an image: numbers in their ranges; the body is asked for elsewhere.
-bool pl_law_desc_is_sound(const plumb_law_desc *desc);
+bool pl_law_desc_is_sound(const pl_law_data *desc);
+bool pl_law_formula_is_sound(const pl_law_formula *formula);
 bool pl_orbit_desc_is_sound(const plumb_orbit_desc *desc);
 plumb_orbit_desc pl_orbits_of(const plumb_world *world); // defaults resolved
 void pl_laws_free(pl_memory *memory, pl_laws *laws);
@@ -24,7 +25,7 @@ bool pl_laws_find(plumb_world *world, plumb_real dt);
 // Those that are pushed together are in one cluster, which one thread solves: marks them. True if there are any.
 bool pl_laws_couple(const plumb_world *world, uint8_t *called);
 // When nothing can fail any more: who wakes, who does not fall asleep, where laws were.
-void pl_laws_settle(plumb_world *world);
+void pl_laws_settle(plumb_world *world, plumb_real dt);
 // Behind the graph: slots of those that are pushed. False when out of memory.
 bool pl_laws_take_slots(plumb_world *world);
 
@@ -44,19 +45,26 @@ static inline pl_law_way pl_law_way_of(const plumb_world *world, uint32_t row)
 }
 
 // Uniform or magnetic, everywhere.
-static inline bool pl_law_is_endless(const plumb_law_desc *d)
+static inline bool pl_law_is_endless(const pl_law_data *d)
 {
     return (d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_MAGNETIC) && d->radius == 0 &&
            d->half.x == 0;
 }
 
-static inline bool pl_law_names(const plumb_law_desc *d, const pl_law_body *body)
+static inline bool pl_law_names(const pl_law_data *d, const pl_law_body *body)
 {
     return d->categories == 0 || (d->categories & body->categories) != 0;
 }
 
+// It wakes bodies that sleep, though none is awake.
+static inline bool pl_law_is_restless(const pl_laws *laws, const pl_law *law)
+{
+    return !plumb_is_null(law->desc.body) ||
+           (law->formula > 0 && pl_law_formula_of(laws, law)->program.uses_time != 0);
+}
+
 // [kg] or [C] by which a law takes hold of a body; 0: it does not.
-static inline double pl_law_hold_of(const plumb_law_desc *d, const pl_law_body *body)
+static inline double pl_law_hold_of(const pl_law_data *d, const pl_law_body *body)
 {
     const bool charge = d->hold == PLUMB_LAW_ON_CHARGE || d->kind == PLUMB_LAW_MAGNETIC;
     return !pl_law_names(d, body) ? 0 : charge ? body->charge : body->weight;
@@ -68,7 +76,7 @@ static inline bool pl_law_has_dipole(const pl_law_body *body)
 }
 
 // By its mass, its charge or its dipole.
-static inline bool pl_law_holds(const plumb_law_desc *d, const pl_law_body *body)
+static inline bool pl_law_holds(const pl_law_data *d, const pl_law_body *body)
 {
     return pl_law_hold_of(d, body) != 0 ||
            (pl_law_has_dipole(body) && d->hold == PLUMB_LAW_ON_CHARGE &&
@@ -76,7 +84,7 @@ static inline bool pl_law_holds(const plumb_law_desc *d, const pl_law_body *body
 }
 
 // By a mutual law it attracts, or repels, whatever that holds.
-static inline bool pl_law_is_source(const plumb_law_desc *d, const pl_law_body *body)
+static inline bool pl_law_is_source(const pl_law_data *d, const pl_law_body *body)
 {
     return d->kind == PLUMB_LAW_MUTUAL && pl_law_holds(d, body) &&
            (d->hold == PLUMB_LAW_ON_CHARGE || body->attraction > 0);
@@ -93,13 +101,20 @@ typedef struct pl_law_system {
     uint32_t sources;   // the first so many attract; 0: the system is not coupled
     plumb_vec2 gravity; // that acts besides, where nothing replaces it
     bool replaces;      // some law does: then nothing is in the bodies' ax, ay
+    bool formulas;      // some law is one
+    bool others;        // some law is none, or replaces
     bool alone; // one body, out of reach of all laws that coupled ones carry as the step began
 } pl_law_system;
 
 // Accelerations (x, y a body) at a time [s] since the step began, but for those in the bodies' ax, ay, and for magnetic
-// laws.
-void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time,
-                  double *out);
+// laws. `slopes`, if not NULL: how they change with a body's velocity, [1/s] ax by vx, ax by vy, ay by vx, ay by vy.
+void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time, double *out,
+                  double *slopes);
+// What is to be added to a velocity in a second of h seconds in which the acceleration a [m/s^2] changes with it by `slopes`.
+void pl_law_kick(const double a[2], const double slopes[4], double h, double out[2]);
+// A law takes hold of the body of index i and reaches it.
+bool pl_law_acts(const pl_law_system *system, const pl_law_now *law, const pl_law_state *states,
+                 uint32_t i, double time);
 // [rad/s] by which magnetic laws turn the velocity of a body clockwise.
 double pl_laws_spin(const pl_law_system *system, const pl_law_body *body, const pl_law_state *state,
                     double time);
@@ -139,9 +154,12 @@ pl_dipole_push pl_dipole_pair(const pl_law_now *law, const pl_pole *a, const pl_
 // From a uniform law or an attractor on charge that is at a place; nothing from another. Whether its zone reaches so far is
 // not asked.
 pl_dipole_push pl_dipole_in(const pl_law_now *law, const pl_pole *pole, double x, double y);
+// From a formula on charge, of a body that moves as the state says.
+pl_dipole_push pl_dipole_in_formula(const plumb_world *world, const pl_law_now *law,
+                                    const pl_pole *pole, const pl_law_state *state, double time);
 // [J] of the same, where the law has a potential (law_field.c).
 double pl_dipole_energy(const pl_law_now *law, const pl_pole *a, const pl_pole *b);
-double pl_dipole_energy_in(const pl_law_now *law, const pl_pole *pole);
+double pl_dipole_energy_in(const plumb_world *world, const pl_law_now *law, const pl_pole *pole);
 
 //---- law_rest.c ----------------------------------------------------------------------------------
 
@@ -161,6 +179,20 @@ void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double c
                    double out[2]);
 // Laws that move, and bodies that attract, pull the body of a row more than what rests may be pushed otherwise.
 bool pl_laws_stir(const plumb_world *world, uint32_t row);
+pl_law_state pl_law_state_of(const plumb_world *world, uint32_t row);
+
+//---- law_formula.c -------------------------------------------------------------------------------
+
+// Bodies that are taken together.
+#define PL_LAW_BLOCK PL_FORMULA_LANES
+
+// Adds what formulas give each body; slopes as of pl_laws_pull.
+void pl_formulas_pull(const pl_law_system *system, const pl_law_state *states, double time,
+                      double *out, double *slopes);
+// [J] that a body has in a law whose formula is a potential.
+double pl_formula_potential(const plumb_world *world, const pl_law_now *law, double x, double y);
+// Who wakes or does not fall asleep because a formula of the time changes where it is.
+void pl_formulas_heed(plumb_world *world, double dt);
 
 //---- orbits.c ------------------------------------------------------------------------------------
 

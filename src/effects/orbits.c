@@ -7,6 +7,13 @@
 // 1, 2, ... 8 parts of an interval is extrapolated in the square of their lengths (Gragg; Bulirsch and Stoer 1966) until two
 // results agree; where 8 do not do, the interval is halved. What only constant things act on is followed in one piece.
 //
+// A formula of velocities is no kick of that kind. Of order 2: half of the flow, a kick for which the velocity on its way is
+// solved for (law_forces.c), half of the flow: stable however strong the drag. That is not symmetric, so its error has all powers from
+// the square on. Of order 4: that in 1, 2 and 3 parts, extrapolated; with a tolerance in 1, 2, ... 8, as above, but in the lengths
+// themselves.
+//
+// Bodies alone fly one by one; where there are formulas, in blocks, unless there is a tolerance, since each has steps of its own.
+//
 // The flow of dv/dt = a + w (vy, -vx): with z = vx + i vy, z' = z e + a t p, way = t (z p) + a t^2 r, where e = exp(-i w t),
 // p = (1 - e) / (i w t), r = (1 - p) / (i w t).
 //
@@ -45,7 +52,8 @@ typedef struct voyage {
     pl_law_state *now, *start, *table; // table: COLUMNS + 1 of them
     double *pull;
     double *constant; // [m/s^2] x, y a body
-    bool bent;        // something depends on the place
+    double *slopes;   // four a body
+    bool dragged;     // a formula that asks for velocities may act on a body
 } voyage;
 
 static size_t state_bytes(size_t count)
@@ -55,7 +63,7 @@ static size_t state_bytes(size_t count)
 
 static size_t force_bytes(size_t count)
 {
-    return count * 4 * sizeof(double);
+    return count * 8 * sizeof(double);
 }
 
 bool pl_orbits_reserve(plumb_world *world)
@@ -137,16 +145,56 @@ static void kick(const voyage *v, double t)
 static void run(const voyage *v, const scheme *by, double time, double length, int n)
 {
     const double h = length / n;
-    pl_laws_pull(&v->system, v->now, time, v->pull);
+    pl_laws_pull(&v->system, v->now, time, v->pull, NULL);
     for (int part = 0; part < n; ++part) {
         double at = time + part * h;
         for (int k = 0; k < by->flows; ++k) {
             kick(v, h * by->kick[k]);
             flow(v, at, h * by->flow[k]);
             at += h * by->flow[k];
-            pl_laws_pull(&v->system, v->now, at, v->pull);
+            pl_laws_pull(&v->system, v->now, at, v->pull, NULL);
         }
         kick(v, h * by->kick[by->flows]);
+    }
+}
+
+//---- where velocities count ----------------------------------------------------------------------
+
+static void run_midway(const voyage *v, double time, double length, int n)
+{
+    const double h = length / n;
+    for (int part = 0; part < n; ++part) {
+        const double at = time + h * part;
+        flow(v, at, h / 2);
+        pl_laws_pull(&v->system, v->now, at + h / 2, v->pull, v->slopes);
+        for (uint32_t i = 0; i < v->system.count; ++i) {
+            pl_law_kick(&v->pull[2 * i], &v->slopes[4 * i], h, &v->pull[2 * i]);
+        }
+        kick(v, h);
+        flow(v, at + h / 2, h / 2);
+    }
+}
+
+// Of order 4: each substep in 1, 2 and 3 parts, weighed so that h^2 and h^3 cancel.
+static void run_midway_thrice(const voyage *v, double dt, int n)
+{
+    static const double weight[] = { 1.0 / 12, -4.0 / 3, 9.0 / 4 };
+    const uint32_t count = v->system.count;
+    const double h = dt / n;
+    pl_law_state *sum = v->table;
+    for (int part = 0; part < n; ++part) {
+        memcpy(v->start, v->now, count * sizeof *sum);
+        memset(sum, 0, count * sizeof *sum);
+        for (int k = 0; k < 3; ++k) {
+            memcpy(v->now, v->start, count * sizeof *sum);
+            run_midway(v, h * part, h, k + 1);
+            for (uint32_t i = 0; i < count; ++i) {
+                const pl_law_state *s = &v->now[i];
+                sum[i].x += weight[k] * s->x, sum[i].y += weight[k] * s->y;
+                sum[i].vx += weight[k] * s->vx, sum[i].vy += weight[k] * s->vy;
+            }
+        }
+        memcpy(v->now, sum, count * sizeof *sum);
     }
 }
 
@@ -189,12 +237,16 @@ static bool attempt(const voyage *v, double time, double length, double toleranc
     pl_law_state *spare = v->table + COLUMNS * count;
     for (int n = 1; n <= COLUMNS; ++n) {
         memcpy(v->now, v->start, bytes);
-        run(v, &verlet, time, length, n);
+        if (v->dragged) {
+            run_midway(v, time, length, n);
+        } else {
+            run(v, &verlet, time, length, n);
+        }
         for (int k = 1; k < n; ++k) {
             pl_law_state *before = v->table + (size_t)(k - 1) * count;
             const double ratio = (double)n / (n - k);
             memcpy(spare, v->now, bytes);
-            extrapolate(v, before, ratio * ratio - 1);
+            extrapolate(v, before, v->dragged ? ratio - 1 : ratio * ratio - 1);
             memcpy(before, spare, bytes);
         }
         if (n > 2 && agree(v, spare, length, tolerance)) {
@@ -208,6 +260,8 @@ static bool attempt(const voyage *v, double time, double length, double toleranc
 // Parts of a step, and how often it is tried at most: at an edge of a zone nothing agrees.
 #define PARTS    (UINT64_C(1) << 24)
 #define ATTEMPTS 4000
+// [-] Extrapolated in lengths, not in their squares, rounding comes to more than less would ask for.
+#define LEAST_DRAGGED 1e-11
 
 static void run_to(const voyage *v, double dt, double tolerance)
 {
@@ -277,13 +331,20 @@ static void travel(voyage *v, double dt)
 {
     const plumb_world *world = v->system.world;
     const plumb_orbit_desc orbits = pl_orbits_of(world);
+    v->dragged = false;
     for (uint32_t i = 0; i < v->system.count; ++i) {
         set_out(v, i);
+        v->dragged |= v->system.bodies[i].dragged;
     }
     if (!is_bent(&v->system)) {
         flow(v, 0, dt);
     } else if (orbits.tolerance > 0) {
-        run_to(v, dt, (double)orbits.tolerance);
+        const double tolerance = (double)orbits.tolerance;
+        run_to(v, dt, v->dragged ? larger(tolerance, LEAST_DRAGGED) : tolerance);
+    } else if (v->dragged && orbits.order == 4) {
+        run_midway_thrice(v, dt, world->desc.substeps);
+    } else if (v->dragged) {
+        run_midway(v, 0, dt, world->desc.substeps);
     } else {
         run(v, orbits.order == 4 ? &fourth : &verlet, 0, dt, world->desc.substeps);
     }
@@ -305,7 +366,9 @@ static pl_law_system system_of(const plumb_world *world, uint32_t first, uint32_
                             .count = count,
                             .sources = sources,
                             .gravity = world->effects.gravity,
-                            .replaces = s->replaces };
+                            .replaces = s->replaces,
+                            .formulas = s->formulas,
+                            .others = s->others };
 }
 
 typedef struct singles {
@@ -319,15 +382,55 @@ static void travel_alone(void *context, uint32_t first, uint32_t count)
     const singles *all = context;
     for (uint32_t i = all->first + first; i < all->first + first + count; ++i) {
         pl_law_state states[COLUMNS + 3];
-        double numbers[4];
+        double numbers[8];
         voyage v = { .system = system_of(all->world, i, 1, 0),
                      .now = states,
                      .start = states + 1,
                      .table = states + 2,
                      .pull = numbers,
-                     .constant = numbers + 2 };
+                     .constant = numbers + 2,
+                     .slopes = numbers + 4 };
         v.system.alone = true;
         if (pl_law_way_of(all->world, v.system.bodies->row) == PL_LAW_FLIES) {
+            travel(&v, all->dt);
+        }
+    }
+}
+
+// Those of a range that fly, and on which a formula of velocities may act, or may not, from *next on: up to a block.
+static uint32_t gather(const singles *all, uint32_t *next, uint32_t end, bool dragged,
+                       pl_law_body *bodies)
+{
+    uint32_t count = 0;
+    for (; *next < end && count < PL_LAW_BLOCK; ++*next) {
+        const pl_law_body *body = &pl_law_bodies(all->world)[*next];
+        if (body->dragged == dragged && pl_law_way_of(all->world, body->row) == PL_LAW_FLIES) {
+            bodies[count++] = *body;
+        }
+    }
+    return count;
+}
+
+// In blocks. A body has the same bits whoever else is in its block.
+static void travel_in_blocks(void *context, uint32_t first, uint32_t count)
+{
+    const singles *all = context;
+    const uint32_t begin = all->first + first, end = begin + count;
+    for (int dragged = 0; dragged < 2; ++dragged) {
+        pl_law_body bodies[PL_LAW_BLOCK];
+        uint32_t next = begin, found;
+        while ((found = gather(all, &next, end, dragged != 0, bodies)) > 0) {
+            pl_law_state states[3 * PL_LAW_BLOCK];
+            double numbers[8 * PL_LAW_BLOCK];
+            voyage v = { .system = system_of(all->world, 0, found, 0),
+                         .now = states,
+                         .start = states + found,
+                         .table = states + 2 * found,
+                         .pull = numbers,
+                         .constant = numbers + 2 * found,
+                         .slopes = numbers + 4 * found };
+            v.system.bodies = bodies;
+            v.system.alone = true;
             travel(&v, all->dt);
         }
     }
@@ -348,11 +451,14 @@ plumb_result pl_run_orbits(plumb_world *world, plumb_real dt)
                      .start = states + count,
                      .table = states + 2 * (size_t)count,
                      .pull = numbers,
-                     .constant = numbers + 2 * (size_t)count };
+                     .constant = numbers + 2 * (size_t)count,
+                     .slopes = numbers + 4 * (size_t)count };
         travel(&v, (double)dt);
     }
-    pl_laws_settle(world);
+    pl_laws_settle(world, dt);
     singles rest = { world, count, (double)dt };
-    pl_tasks_ranges(world->tasks, s->flies ? s->body_count - count : 0, LEAST, travel_alone, &rest);
+    const bool in_blocks = s->formulas && !(pl_orbits_of(world).tolerance > 0);
+    pl_tasks_ranges(world->tasks, s->flies ? s->body_count - count : 0, LEAST,
+                    in_blocks ? travel_in_blocks : travel_alone, &rest);
     return PLUMB_OK;
 }

@@ -120,7 +120,7 @@
     X("dipoles",           MOMENT,      IF(pl_want_dipoles),         EACH(pl_dipole_row),                                    ONCE,           \
       "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("law forces",        MOMENT,      IF(pl_want_laws),            ACTS(pl_law_row, pl_law_acts_on),                       ONCE,           \
-      "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
+      "solver bodies, poses, velocities, masses, body settings", "accelerations", HAS(pl_law_variants))                                      \
     X("soft forces",       MOMENT,      IF(pl_want_softbodies),      ACTS(pl_softbodies_row, pl_softbodies_act_on),          ONCE,           \
       "soft bodies, solver bodies, poses, velocities, pieces", "accelerations", ONE)                                                         \
     X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
@@ -172,7 +172,7 @@
     X("store contacts",    STORE,       IF(pl_want_collision),       THREE(pl_soft_store, pl_classic_store, pl_classic_store), ONCE,           \
       "constraints", "pairs, manifolds", ONE)                                                                                                \
     X("orbits",            FINISH,      IF(pl_want_laws),            ONCE(pl_run_orbits),                                    ONCE,           \
-      "poses, velocities, forces, masses, body settings", "islands, body settings", ONE)                                                                           \
+      "poses, velocities, forces, masses, body settings", "islands, body settings", HAS(pl_law_variants))                                                          \
     X("motion",            FINISH,      ALWAYS,                      ONCE(pl_run_motion),                                    ONCE,           \
       "solver bodies, forces, masses", "poses, velocities, forces, movers, time", HAS(pl_motion_variants))                                   \
     X("continuous",        FINISH,      IF(pl_want_continuous),      ONCE(pl_run_continuous),                                ONCE,           \

@@ -311,6 +311,23 @@ static bool check_softbodies(const pl_suspect *s)
     return sound;
 }
 
+// Each law of that kind has its own, in their order.
+static bool check_formulas(const pl_laws *laws)
+{
+    uint32_t count = 0;
+    bool sound = true;
+    for (uint32_t i = 0; i < laws->count && sound; ++i) {
+        const pl_law *law = &pl_law_items(laws)[i];
+        const bool has = law->desc.kind == PLUMB_LAW_FORMULA;
+        sound = law->formula == (has ? count + 1 : 0) && (!has || count < laws->formula_count);
+        if (has && sound) {
+            const pl_law_formula *formula = &pl_law_formulas(laws)[count++];
+            sound = plumb_same(formula->law, law->entity) && pl_law_formula_is_sound(formula);
+        }
+    }
+    return sound && count == laws->formula_count;
+}
+
 static bool check_laws(const pl_suspect *s)
 {
     const pl_laws *laws = &s->world.laws;
@@ -324,7 +341,7 @@ static bool check_laws(const pl_suspect *s)
                 *(const uint8_t *)&law->placed <= 1 &&
                 (plumb_is_null(body) || pl_suspect_row(s, body) != PL_NONE);
     }
-    return sound;
+    return sound && check_formulas(laws);
 }
 
 // Their shapes have the flag, each once, and modes follow one another.

@@ -337,3 +337,16 @@ void pl_motion_variants(const plumb_world *world, pl_variants *v)
     add_variant(v, pl_want_damping(world, &unused), "damping");
     add_variant(v, pl_want_caps(world, &unused), "speed caps");
 }
+
+void pl_law_variants(const plumb_world *world, pl_variants *v)
+{
+    const pl_law_formula *all = pl_law_formulas(&world->laws);
+    bool of_velocity = false, of_time = false;
+    for (uint32_t i = 0; i < world->laws.formula_count; ++i) {
+        of_velocity |= all[i].program.uses_velocity != 0;
+        of_time |= all[i].program.uses_time != 0;
+    }
+    add_variant(v, world->laws.formula_count > 0, "formulas");
+    add_variant(v, of_velocity, "formulas of velocities");
+    add_variant(v, of_time, "formulas of time");
+}

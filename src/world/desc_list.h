@@ -23,6 +23,8 @@
 #define PL_LAW_DESC(X)                                                                             \
     X(kind) X(hold) X(falloff) X(combine) X(priority) X(body) X(position) X(angle) X(vector)       \
     X(strength) X(softening) X(radius) X(half) X(categories)
+// Texts lie in the list of formulas.
+#define PL_LAW_TEXTS(X) X(formula_x) X(formula_y) X(potential)
 
 #define PL_CHARACTER_DESC(X)                                                                       \
     X(up) X(max_slope) X(skin) X(step_height) X(step_width) X(snap_distance) X(acceleration)       \

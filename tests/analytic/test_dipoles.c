@@ -281,6 +281,41 @@ static void zones_and_carriers_act(void **state)
     plumb_world_destroy(w);
 }
 
+// The same potential as an attractor and as a formula: a dipole is pulled and turned alike, and has the same energy.
+static void formulas_act_as_attractors_do(void **state)
+{
+    (void)state;
+    double at[2][3], energy[2];
+    for (int k = 0; k < 2; ++k) {
+        plumb_world *w = make_world((plumb_world_desc){ .substeps = 4 });
+        plumb_law_desc d = { .kind = PLUMB_LAW_ATTRACTOR,
+                             .hold = PLUMB_LAW_ON_CHARGE,
+                             .strength = 3,
+                             .softening = R(0.5),
+                             .position = { 1, 0 } };
+        if (k == 1) {
+            d.kind = PLUMB_LAW_FORMULA;
+            d.strength = d.softening = 0;
+            d.potential = "-3 / sqrt(x^2 + y^2 + 0.25)";
+        }
+        assert_false(plumb_is_null(plumb_law_create(w, &d)));
+        const plumb_body b = make_body(
+            w,
+            (plumb_body_desc){ .dipole = 2, .charge = R(-0.5), .angle = 1, .position = { 0, 1 } });
+        energy[k] = plumb_world_energy(w).potential;
+        for (int i = 0; i < 60; ++i) {
+            step(w, 1.0 / 60);
+        }
+        const plumb_vec2 p = plumb_body_center(w, b);
+        at[k][0] = (double)p.x, at[k][1] = (double)p.y, at[k][2] = (double)plumb_body_angle(w, b);
+        plumb_world_destroy(w);
+    }
+    assert_near(energy[1], energy[0], 1e-6);
+    for (int i = 0; i < 3; ++i) {
+        assert_near(at[1][i], at[0][i], 1e-5 + ROUNDED(1e-4));
+    }
+}
+
 //---- worlds of charges and dipoles ---------------------------------------------------------------
 
 enum { THINGS = 6 };
@@ -634,6 +669,7 @@ int main(void)
         cmocka_unit_test(pulls_are_those_of_textbooks),
         cmocka_unit_test(dipoles_count_where_fields_are_asked),
         cmocka_unit_test(zones_and_carriers_act),
+        cmocka_unit_test(formulas_act_as_attractors_do),
         cmocka_unit_test(closed_worlds_keep_what_they_should),
         cmocka_unit_test(softening_bounds_those_that_meet),
         cmocka_unit_test(the_world_may_be_moved_turned_and_mirrored),

@@ -48,7 +48,7 @@ static void bad_laws_are_refused(void **state)
     assert_true(plumb_is_null(plumb_law_create(NULL, &(plumb_law_desc){ 0 })));
     assert_true(plumb_is_null(plumb_law_create(f->world, NULL)));
     assert_int_equal(plumb_world_error(f->world).code, PLUMB_E_NULL);
-    refused(f, (plumb_law_desc){ .kind = 4 }, PLUMB_E_RANGE, "kind is 4; it must be 0 to 3");
+    refused(f, (plumb_law_desc){ .kind = 5 }, PLUMB_E_RANGE, "kind is 5; it must be 0 to 4");
     refused(f, (plumb_law_desc){ .hold = 2 }, PLUMB_E_RANGE, "hold is 2");
     refused(f, (plumb_law_desc){ .falloff = 5 }, PLUMB_E_RANGE, "falloff is 5");
     refused(f, (plumb_law_desc){ .combine = 2 }, PLUMB_E_RANGE, "combine is 2");
@@ -68,11 +68,11 @@ static void bad_laws_are_refused(void **state)
     refused(f, (plumb_law_desc){ .half = { 1, 1 }, .radius = 1 }, PLUMB_E_RANGE,
             "a zone is a circle or a box");
     refused(f, (plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR, .half = { 1, 1 } }, PLUMB_E_RANGE,
-            "only uniform and magnetic laws have a box");
+            "only uniform and magnetic laws and formulas have a box");
     refused(f, (plumb_law_desc){ .kind = PLUMB_LAW_MUTUAL, .body = f->dynamic }, PLUMB_E_RANGE,
             "a mutual law has none");
     refused(f, (plumb_law_desc){ .kind = PLUMB_LAW_MAGNETIC, .combine = PLUMB_LAW_REPLACE },
-            PLUMB_E_RANGE, "only uniform laws and attractors do");
+            PLUMB_E_RANGE, "only uniform laws, attractors and formulas do");
     refused(f, (plumb_law_desc){ .body = f->stale }, PLUMB_E_HANDLE, "plumb_law_create: body");
     assert_int_equal(plumb_world_laws(f->world, NULL, 0), 0);
     plumb_world *round = make_world((plumb_world_desc){ .wrap_x = 10 });

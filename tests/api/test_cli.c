@@ -139,7 +139,7 @@ static void list_is_one_item_a_line(void **state)
     assert_int_equal(count_lines(out), 1 + 17);
     assert_non_null(strstr(out, "\n  contacts\n"));
     expect_code("\"$P\" list scene --brief", 0);
-    assert_int_equal(count_lines(out), 1 + 56);
+    assert_int_equal(count_lines(out), 1 + 57);
     assert_non_null(strstr(out, "\n  scene\n  material\n  material_pair\n  body\n"));
     expect_code("\"$P\" list joints --brief", 0);
     assert_int_equal(count_lines(out), 1 + 12 + 2);

@@ -131,6 +131,13 @@ static const struct work {
     { "light{ name = 'a', at = {-100, 1} }", "light_path('a')" },
     { "light{ name = 'a', at = {-100, 1}, rays = 64, width = 3 }", "light_on('b1')" },
     { "local l = light{ at = {-100, 1} }", "l:set{ power = 2 } light{}:remove()" },
+    { "local p = '0' for i = 1, 24 do p = p .. '-exp(-(x-' .. i .. ')^2-y^2)' end local f = "
+      "formula{ potential = p }",
+      "f:set{ potential = p .. '+0' } f:set{ potential = p }" },
+    { "local p = '1e-300' for i = 1, 50 do p = p .. '+' .. i .. 'e-300' end local f = formula{ x = "
+      "p }",
+      "f:set{ x = p .. '+0' } f:set{ x = p }" },
+    { "", "formula{ x = 'sin(t)' }:remove()" },
     { "", "blast{ at = {0, 0}, radius = 100, impulse = 1e-6 }" },
     { "", "blast{ at = {0, 0}, radius = 100, impulse = 1e-6, occlusion = 'walls' }" },
     { "", "blast{ at = {0, 0}, radius = 100, impulse = 1e-6, occlusion = 'all' }" },

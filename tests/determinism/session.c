@@ -750,21 +750,33 @@ static void change_laws(session *s)
     plumb_world *w = s->world;
     plumb_law laws[4];
     const int count = plumb_world_laws(w, laws, 4);
-    const plumb_law_kind kind = (plumb_law_kind)pick(s, 4);
-    const bool zone = kind == PLUMB_LAW_UNIFORM || kind == PLUMB_LAW_MAGNETIC;
+    static const char *const formulas[][3] = {
+        { "-2 * x - 0.1 * vx * hypot(vx, vy)", "cos(3 * t) - y", NULL },
+        { NULL, "3 * step(sin(t)) / r", NULL },
+        { NULL, NULL, "(x^2 - 1)^2 + 0.5 * y^2 - exp(-r^2)" },
+        { NULL, NULL, "0.2 * sin(4 * x - t) * y" },
+    };
+    const plumb_law_kind kind = (plumb_law_kind)pick(s, 5);
+    const bool is_formula = kind == PLUMB_LAW_FORMULA;
+    const char *const *formula = formulas[pick(s, 4)];
+    const bool zone = kind == PLUMB_LAW_UNIFORM || kind == PLUMB_LAW_MAGNETIC || is_formula;
     const plumb_body body = s->body[pick(s, SESSION_BODIES)];
     const plumb_law_desc d = {
         .kind = kind,
         .hold = one_in(s, 4) ? PLUMB_LAW_ON_CHARGE : PLUMB_LAW_ON_MASS,
         .falloff = (plumb_falloff)pick(s, 5),
-        .combine = kind == PLUMB_LAW_UNIFORM && one_in(s, 3) ? PLUMB_LAW_REPLACE : PLUMB_LAW_ADD,
+        .combine = (kind == PLUMB_LAW_UNIFORM || is_formula) && one_in(s, 3) ? PLUMB_LAW_REPLACE
+                                                                             : PLUMB_LAW_ADD,
         .body = kind != PLUMB_LAW_MUTUAL && one_in(s, 2) ? body : (plumb_body)PLUMB_NULL_INIT,
         .position = place(s, -3, 3, 0, 4),
         .vector = place(s, -5, 5, -5, 5),
         .strength = number(s, -3, 3),
         .softening = number(s, R(0.1), 1),
         .radius = zone ? 0 : number(s, 1, 9),
-        .half = zone && one_in(s, 2) ? plumb_v2(3, 2) : plumb_v2(0, 0)
+        .half = zone && one_in(s, 2) ? plumb_v2(3, 2) : plumb_v2(0, 0),
+        .formula_x = is_formula ? formula[0] : NULL,
+        .formula_y = is_formula ? formula[1] : NULL,
+        .potential = is_formula ? formula[2] : NULL
     };
     plumb_body_set_charge(w, body, number(s, -1, 1));
     plumb_body_set_dipole(w, s->body[pick(s, SESSION_BODIES)], number(s, R(-0.2), R(0.2)));

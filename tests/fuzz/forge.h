@@ -84,7 +84,7 @@ static inline void add_joints(plumb_world *w, plumb_body a, plumb_body b, int fi
     }
 }
 
-// World 0: bodies in contact, joints. 1: ground of many pieces, sleepers, sensors. 2: a character, targets, settings of bodies,
+// World 0: bodies in contact, joints. 1: ground of many pieces, sleepers, sensors, laws. 2: a character, targets, settings of bodies,
 // commands, materials, a liquid. 3: a world that wraps around, solved the classic way.
 static inline void fill(plumb_world *w, int which)
 {
@@ -115,6 +115,11 @@ static inline void fill(plumb_world *w, int which)
         add(w, PLUMB_STATIC, 2, 0.8, &ledge);
         add(w, PLUMB_DYNAMIC, 2, 0.26, &box);
         plumb_world_set_sleep(w, true, 1, R(0.02));
+        plumb_law_create(w, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR, .strength = R(0.01) });
+        plumb_law_create(w, &(plumb_law_desc){ .kind = PLUMB_LAW_FORMULA,
+                                               .formula_x = "-0.1 * vx",
+                                               .radius = 2,
+                                               .position = { 2, 0 } });
     } else {
         plumb_material m = plumb_material_create(w, &(plumb_material_desc){ .friction = R(0.3) });
         plumb_material_pair_set(

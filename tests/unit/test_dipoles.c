@@ -19,7 +19,7 @@ typedef struct answer {
     double fx, fy, torque, back, energy;
 } answer;
 
-static pl_law_now law_of(const plumb_law_desc *d, double reach)
+static pl_law_now law_of(const pl_law_data *d, double reach)
 {
     return (pl_law_now){ .desc = d,
                          .c = 1,
@@ -51,7 +51,7 @@ static answer of_one(pl_law_now *law, const thing *a, const thing *b)
     const pl_pole to = { &body, b->x, b->y, b->mx, b->my };
     law->x = a->x, law->y = a->y;
     const pl_dipole_push p = pl_dipole_in(law, &to, a->x, a->y);
-    return (answer){ p.fx, p.fy, p.torque, p.answer, pl_dipole_energy_in(law, &to) };
+    return (answer){ p.fx, p.fy, p.torque, p.answer, pl_dipole_energy_in(NULL, law, &to) };
 }
 
 //---- sums over charges ---------------------------------------------------------------------------
@@ -94,7 +94,7 @@ static void split(const thing *t, double apart, point_charge out[3])
 }
 
 // c: what two charges have for energy is c q1 q2 g. Without what the two middles do to each other.
-static answer of_charges(const plumb_law_desc *d, double c, const thing *a, const thing *b,
+static answer of_charges(const pl_law_data *d, double c, const thing *a, const thing *b,
                          double apart)
 {
     const double soft = (double)d->softening * (double)d->softening;
@@ -135,7 +135,7 @@ static answer less(const answer *a, const answer *b)
 }
 
 // Ends come closer by half each time: what the sums are off by falls to a quarter.
-static void assert_limit(const plumb_law_desc *d, double c, const thing *a, const thing *b,
+static void assert_limit(const pl_law_data *d, double c, const thing *a, const thing *b,
                          answer have)
 {
     answer sums[3], off[3];
@@ -167,13 +167,13 @@ static thing anything(uint32_t *seed, double x)
                     sim_uniform(seed, -2, 2), sim_uniform(seed, -1, 1), sim_uniform(seed, -1, 1) };
 }
 
-static plumb_law_desc any_law(uint32_t *seed, int i, plumb_law_kind kind)
+static pl_law_data any_law(uint32_t *seed, int i, plumb_law_kind kind)
 {
-    return (plumb_law_desc){ .kind = kind,
-                             .hold = PLUMB_LAW_ON_CHARGE,
-                             .falloff = (plumb_falloff)(i % 5),
-                             .strength = R(sim_uniform(seed, -3, 3)),
-                             .softening = i / 5 % 2 == 0 ? 0 : R(0.4) };
+    return (pl_law_data){ .kind = kind,
+                          .hold = PLUMB_LAW_ON_CHARGE,
+                          .falloff = (plumb_falloff)(i % 5),
+                          .strength = R(sim_uniform(seed, -3, 3)),
+                          .softening = i / 5 % 2 == 0 ? 0 : R(0.4) };
 }
 
 static void pairs_are_the_limit_of_charges(void **state)
@@ -181,7 +181,7 @@ static void pairs_are_the_limit_of_charges(void **state)
     (void)state;
     uint32_t seed = 11;
     for (int i = 0; i < 200; ++i) {
-        const plumb_law_desc d = any_law(&seed, i, PLUMB_LAW_MUTUAL);
+        const pl_law_data d = any_law(&seed, i, PLUMB_LAW_MUTUAL);
         const pl_law_now law = law_of(&d, INFINITY);
         thing a = anything(&seed, 0), b = anything(&seed, 1.7);
         if (i / 10 % 3 == 0) {
@@ -198,7 +198,7 @@ static void attractors_are_charges_of_one(void **state)
     (void)state;
     uint32_t seed = 12;
     for (int i = 0; i < 100; ++i) {
-        const plumb_law_desc d = any_law(&seed, i, PLUMB_LAW_ATTRACTOR);
+        const pl_law_data d = any_law(&seed, i, PLUMB_LAW_ATTRACTOR);
         pl_law_now law = law_of(&d, INFINITY);
         thing a = anything(&seed, 0), b = anything(&seed, 1.7);
         a.charge = 1, a.mx = a.my = 0;
@@ -233,7 +233,7 @@ static void pairs_follow_from_one_energy(void **state)
     (void)state;
     uint32_t seed = 13;
     for (int i = 0; i < 200; ++i) {
-        const plumb_law_desc d = any_law(&seed, i, PLUMB_LAW_MUTUAL);
+        const pl_law_data d = any_law(&seed, i, PLUMB_LAW_MUTUAL);
         const pl_law_now law = law_of(&d, INFINITY);
         const thing a = anything(&seed, 0), b = anything(&seed, 1.7);
         const answer have = of_pair(&law, &a, &b), back = of_pair(&law, &b, &a);
@@ -255,9 +255,9 @@ static void close_cases_are_those_of_textbooks(void **state)
 {
     (void)state;
     const double r = 2, k = 3, p = 0.5, q = 0.7;
-    const plumb_law_desc d = { .kind = PLUMB_LAW_MUTUAL,
-                               .hold = PLUMB_LAW_ON_CHARGE,
-                               .strength = R(3) };
+    const pl_law_data d = { .kind = PLUMB_LAW_MUTUAL,
+                            .hold = PLUMB_LAW_ON_CHARGE,
+                            .strength = R(3) };
     const pl_law_now law = law_of(&d, INFINITY);
     const thing single = { 0, 0, q, 0, 0 }, along = { 0, 0, 0, p, 0 }, across = { 0, 0, 0, 0, p };
     thing far = { r, 0, 0, p, 0 };
@@ -279,7 +279,7 @@ static void what_does_not_act_is_nothing(void **state)
 {
     (void)state;
     const thing a = { 0, 0, 1, 1, 2 }, b = { 1, 2, 1, 2, 1 };
-    plumb_law_desc d = { .kind = PLUMB_LAW_MUTUAL, .hold = PLUMB_LAW_ON_CHARGE, .strength = 1 };
+    pl_law_data d = { .kind = PLUMB_LAW_MUTUAL, .hold = PLUMB_LAW_ON_CHARGE, .strength = 1 };
     const pl_law_now far = law_of(&d, INFINITY), near = law_of(&d, 2);
     answer none = of_pair(&near, &a, &b);
     assert_true(largest(&none) == 0);

@@ -309,12 +309,13 @@ typedef struct sc_softbody {
     plumb_softbody handle;
 } sc_softbody;
 
-/// attractor{}, zone{}, magnetic{}, mutual{}
+/// attractor{}, zone{}, magnetic{}, mutual{}, formula{}
 typedef enum sc_law_kind {
     SC_ATTRACTOR,
     SC_ZONE,
     SC_MAGNETIC,
     SC_MUTUAL,
+    SC_FORMULA,
     SC_LAW_KINDS
 } sc_law_kind;
 
@@ -327,6 +328,8 @@ typedef struct sc_law_def {
     uint64_t only; ///< bits: categories
     int on, falloff;
     bool replace;
+    char x[PLUMB_LAW_FORMULA_MOST + 1], y[PLUMB_LAW_FORMULA_MOST + 1];
+    char potential[PLUMB_LAW_FORMULA_MOST + 1];
 } sc_law_def;
 
 typedef struct sc_law {

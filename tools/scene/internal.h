@@ -414,7 +414,7 @@ void sc_open_fluids(lua_State *L);     ///< water, wind, fluid_at
 void sc_open_shapes(lua_State *L);     ///< box, circle, ...
 void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast
-void sc_open_laws(lua_State *L);       ///< attractor, zone, magnetic, mutual, orbits
+void sc_open_laws(lua_State *L);       ///< attractor, zone, magnetic, mutual, formula, orbits
 void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in, liquid_drain, liquid_change
 void sc_open_wet(lua_State *L);        ///< liquid_at, liquid_ray
 void sc_open_softbody(lua_State *L);   ///< rope, cloth, jelly, balloon, softbody

@@ -1,14 +1,15 @@
-// laws.c - attractor{}, zone{}, magnetic{}, mutual{}: laws of the world (plumb/law.h), orbits{}: how what flies in them is
-// moved. A law answers with an object: law:set{...} changes some of it, law:remove() takes it away.
+// laws.c - attractor{}, zone{}, magnetic{}, mutual{}, formula{}: laws of the world (plumb/law.h), orbits{}: how what flies in
+// them is moved. A law answers with an object: law:set{...} changes some of it, law:remove() takes it away.
+#include <string.h>
+
 #include "internal.h"
 
 #define META "plumb.law"
 
 static const plumb_law_kind kinds[SC_LAW_KINDS] = {
-    [SC_ATTRACTOR] = PLUMB_LAW_ATTRACTOR,
-    [SC_ZONE] = PLUMB_LAW_UNIFORM,
-    [SC_MAGNETIC] = PLUMB_LAW_MAGNETIC,
-    [SC_MUTUAL] = PLUMB_LAW_MUTUAL,
+    [SC_ATTRACTOR] = PLUMB_LAW_ATTRACTOR, [SC_ZONE] = PLUMB_LAW_UNIFORM,
+    [SC_MAGNETIC] = PLUMB_LAW_MAGNETIC,   [SC_MUTUAL] = PLUMB_LAW_MUTUAL,
+    [SC_FORMULA] = PLUMB_LAW_FORMULA,
 };
 
 #define GIVEN(member) SC_GIVEN(list, d, sc_law_def, member)
@@ -18,11 +19,33 @@ static plumb_vec2 vec(const double v[2])
     return (plumb_vec2){ (plumb_real)v[0], (plumb_real)v[1] };
 }
 
+// What goes together, and what must be said.
+static void check_given(scene *s, const sc_site *site, const sc_law_def *d)
+{
+    const sc_list *list = &sc_list_laws[d->kind];
+    if (d->kind == SC_ZONE && GIVEN(gravity) == GIVEN(electric)) {
+        sc_raise(s, GIVEN(gravity) ? SCENE_E_CONFLICT : SCENE_E_MISSING, site,
+                 GIVEN(gravity) ? "electric" : NULL, 0, NULL,
+                 "zone{} takes either 'gravity' or 'electric'");
+    }
+    const bool components = GIVEN(x) || GIVEN(y);
+    if (d->kind == SC_FORMULA && components == GIVEN(potential)) {
+        sc_raise(s, components ? SCENE_E_CONFLICT : SCENE_E_MISSING, site,
+                 components ? "potential" : NULL, 0, NULL,
+                 "formula{} takes either 'x' and 'y' or 'potential'");
+    }
+    if (d->kind != SC_ZONE && d->kind != SC_FORMULA && !GIVEN(strength)) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "%s{} needs 'strength'", list->name);
+    }
+}
+
 // What the world is told; raises for what the lists do not see.
 static plumb_law_desc describe(scene *s, const sc_site *site, const sc_law_def *d)
 {
     const sc_list *list = &sc_list_laws[d->kind];
     const bool electric = d->kind == SC_ZONE && GIVEN(electric);
+    const bool formula = d->kind == SC_FORMULA;
+    check_given(s, site, d);
     plumb_law_desc desc = { .kind = kinds[d->kind],
                             .hold =
                                 electric || d->on == 1 ? PLUMB_LAW_ON_CHARGE : PLUMB_LAW_ON_MASS,
@@ -36,15 +59,10 @@ static plumb_law_desc describe(scene *s, const sc_site *site, const sc_law_def *
                             .softening = (plumb_real)d->softening,
                             .radius = (plumb_real)d->radius,
                             .half = vec(d->half),
-                            .categories = d->only };
-    if (d->kind == SC_ZONE && GIVEN(gravity) == GIVEN(electric)) {
-        sc_raise(s, GIVEN(gravity) ? SCENE_E_CONFLICT : SCENE_E_MISSING, site,
-                 GIVEN(gravity) ? "electric" : NULL, 0, NULL,
-                 "zone{} takes either 'gravity' or 'electric'");
-    }
-    if (d->kind != SC_ZONE && !GIVEN(strength)) {
-        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "%s{} needs 'strength'", list->name);
-    }
+                            .categories = d->only,
+                            .formula_x = formula && GIVEN(x) ? d->x : NULL,
+                            .formula_y = formula && GIVEN(y) ? d->y : NULL,
+                            .potential = formula && GIVEN(potential) ? d->potential : NULL };
     if (d->body[0] != 0) {
         const sc_body *b = sc_body_named(s, d->body);
         if (b == NULL) {
@@ -57,6 +75,30 @@ static plumb_law_desc describe(scene *s, const sc_site *site, const sc_law_def *
     return desc;
 }
 
+// Formulas are compiled: some 500 instructions a character.
+static uint64_t work_of(const sc_law_def *d)
+{
+    return 100 + 40 * (strlen(d->x) + strlen(d->y) + strlen(d->potential));
+}
+
+// The world refused it: of a formula the key that is none, and where in it.
+static void refuse(scene *s, const sc_site *site, const sc_law_def *d, plumb_result r,
+                   const char *what)
+{
+    static const char *const keys[] = { "x", "y", "potential" }, *const names[] = {
+        ": formula_x: ", ": formula_y: ", ": potential: "
+    };
+    const char *message = plumb_world_error(s->world).message;
+    for (int i = 0; i < 3 && d->kind == SC_FORMULA && r == PLUMB_E_RANGE; i++) {
+        const char *says = strstr(message, names[i]);
+        if (says != NULL) {
+            sc_raise(s, SCENE_E_RANGE, site, keys[i], 0, NULL, "'%s' of formula{}: %s", keys[i],
+                     says + strlen(names[i]));
+        }
+    }
+    sc_refused(s, site, NULL, r, "%s", what);
+}
+
 void sc_build_law(scene *s, const sc_site *site, sc_law_kind kind, int table)
 {
     sc_need_world(s);
@@ -64,11 +106,12 @@ void sc_build_law(scene *s, const sc_site *site, sc_law_kind kind, int table)
     table = lua_absindex(s->L, table);
     sc_read(s, site, &sc_list_laws[kind], table, &def);
     const plumb_law_desc desc = describe(s, site, &def);
-    sc_work(s, 100);
+    sc_work(s, work_of(&def));
     const plumb_law law = plumb_law_create(s->world, &desc);
     if (plumb_is_null(law)) {
-        sc_refused(s, site, NULL, plumb_world_error(s->world).code, "%s{}",
-                   sc_list_laws[kind].name);
+        char what[SC_NAME_SIZE];
+        snprintf(what, sizeof what, "%s{}", sc_list_laws[kind].name);
+        refuse(s, site, &def, plumb_world_error(s->world).code, what);
     }
     *SC_PUSH(s, s->laws) = (sc_law){ def, law };
     plumb_law *object = lua_newuserdatauv(s->L, sizeof *object, 0);
@@ -104,6 +147,11 @@ static int lua_mutual(lua_State *L)
     return make_law(L, SC_MUTUAL);
 }
 
+static int lua_formula(lua_State *L)
+{
+    return make_law(L, SC_FORMULA);
+}
+
 // ------------------------------------------------------------------------------------- methods
 
 // The law of an object; raises where it is gone.
@@ -131,10 +179,10 @@ static int law_set(lua_State *L)
     sc_read(s, &site, &sc_list_laws[def.kind], 2, &def);
     def.present |= law->def.present;
     const plumb_law_desc desc = describe(s, &site, &def);
+    sc_work(s, work_of(&def));
     const plumb_result r = plumb_law_set(s->world, law->handle, &desc);
-    sc_work(s, 100);
     if (r != PLUMB_OK) {
-        sc_refused(s, &site, NULL, r, "set");
+        refuse(s, &site, &def, r, "set");
     }
     law->def = def;
     return 0;
@@ -187,5 +235,6 @@ void sc_open_laws(lua_State *L)
     lua_register(L, "zone", lua_zone);
     lua_register(L, "magnetic", lua_magnetic);
     lua_register(L, "mutual", lua_mutual);
+    lua_register(L, "formula", lua_formula);
     lua_register(L, "orbits", lua_orbits);
 }

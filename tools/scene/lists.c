@@ -433,11 +433,19 @@ static const sc_field magnetic_rows[] = {
 static const sc_field mutual_rows[] = {
     ROW_FALLOFF, ROW_ON, ROW_ONLY, ROW_REACH, ROW_SOFTENING, ROW_STRENGTH("G, or k of charges"),
 };
+static const sc_field formula_rows[] = {
+    ROW_LAW_ANGLE, ROW_LAW_AT, ROW_LAW_BODY, ROW_LAW_HALF, ROW_ON, ROW_ONLY,
+    { "potential", SC_STRING, AT(T, potential), 0, 0, NULL, 0, 0 },
+    ROW_PRIORITY, ROW_REACH, ROW_REPLACE,
+    { "x", SC_STRING, AT(T, x), 0, 0, NULL, 0, 0 },
+    { "y", SC_STRING, AT(T, y), 0, 0, NULL, 0, 0 },
+};
 const sc_list sc_list_laws[SC_LAW_KINDS] = {
     [SC_ATTRACTOR] = { "attractor", attractor_rows, COUNT(attractor_rows) },
     [SC_ZONE]      = { "zone",      zone_rows,      COUNT(zone_rows) },
     [SC_MAGNETIC]  = { "magnetic",  magnetic_rows,  COUNT(magnetic_rows) },
     [SC_MUTUAL]    = { "mutual",    mutual_rows,    COUNT(mutual_rows) },
+    [SC_FORMULA]   = { "formula",   formula_rows,   COUNT(formula_rows) },
 };
 #undef T
 

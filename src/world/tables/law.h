@@ -4,21 +4,41 @@
 
 #include "core/memory.h"
 #include "core/near.h"
+#include "formula/formula.h"
 #include "plumb/law.h"
+#include "world/desc_list.h"
+
+// A descriptor without its texts.
+#define PL_LAW_MEMBER(path) __typeof__(((plumb_law_desc *)0)->path) path;
+typedef struct pl_law_data {
+    PL_LAW_DESC(PL_LAW_MEMBER)
+} pl_law_data;
 
 typedef struct pl_law {
     plumb_law entity;
-    plumb_law_desc desc;
+    pl_law_data desc;
     double x, y; // [m] where the last step had it: who is carried or teleported wakes those it reaches
     bool placed; // a step has seen it
+    uint32_t formula; // which formula it has, from 1 on; 0: none
 } pl_law;
+
+_Static_assert(PLUMB_LAW_FORMULA_MOST == PL_FORMULA_TEXT - 1, "a text and its 0");
+
+// What a law of the kind formula has besides. They stand in the order of their laws.
+typedef struct pl_law_formula {
+    plumb_law law;
+    pl_formula program;
+    char texts[2][PL_FORMULA_TEXT]; // of x and y, or of the potential; none: empty
+} pl_law_formula;
 
 // A law in a step: by falling priority, then in the order in which they were made.
 typedef struct pl_law_now {
-    const plumb_law_desc *desc;
+    const pl_law_data *desc;
+    const pl_formula *formula; // NULL
     double x, y;          // [m] of an attractor or a zone as the step begins
     double vx, vy;        // [m/s] of who carries it, if kinematic
-    double c, s;          // of a box zone, turned about its middle
+    double w;             // [rad/s] of the same
+    double c, s;          // of a box zone or a formula, turned about its middle
     double square;        // [m^2] of the softening
     double reach;         // [m] from (x, y), beyond which it does not act; infinite
     uint32_t carrier;     // row of an awake dynamic body; PL_NONE
@@ -48,6 +68,7 @@ typedef struct pl_law_body {
     double ax, ay;       // [m/s^2] of forces; of gravity and of uniform laws without end, where nothing replaces them
     double spin;         // [rad/s] by which magnetic laws turn its velocity (of the last place that was asked)
     bool coupled;        // it attracts or is attracted by a dynamic body
+    bool dragged;        // a formula that asks for its velocity may act on it
 } pl_law_body;
 
 // Place and velocity of a body in the middle of whatever.
@@ -67,23 +88,36 @@ typedef struct pl_law_step {
     pl_buffer pulled;                // a record a coupled body (effects/law_rest.c)
     uint32_t law_count, body_count, coupled_count, source_count, pushed_count;
     bool replaces; // some law does
+    bool formulas; // some law is one
+    bool others;   // some law is none, or replaces
     bool flies;    // some body does
     bool couples;  // coupled bodies are pushed
     bool dipoles;  // some coupled body has a dipole
-    double time;   // [s] of the step
 } pl_law_step;
 
 typedef struct pl_laws {
-    pl_buffer items; // pl_law
-    uint32_t count;
+    pl_buffer items;    // pl_law
+    pl_buffer formulas; // pl_law_formula
+    uint32_t count, formula_count;
     uint32_t orbit_count;
     pl_buffer orbits; // plumb_orbit_desc: one, or none for the default
     pl_law_step step;
 } pl_laws;
 
+static inline pl_law_formula *pl_law_formulas(const pl_laws *laws)
+{
+    return (pl_law_formula *)laws->formulas.data;
+}
+
 static inline pl_law *pl_law_items(const pl_laws *laws)
 {
     return (pl_law *)laws->items.data;
+}
+
+// Of a law; NULL: it has none.
+static inline pl_law_formula *pl_law_formula_of(const pl_laws *laws, const pl_law *law)
+{
+    return law->formula > 0 ? pl_law_formulas(laws) + (law->formula - 1) : NULL;
 }
 
 #endif
