@@ -96,7 +96,8 @@ typedef struct plumb_law_desc {
 } plumb_law_desc;
 
 /// Adds a law. Null on error: E_NULL, E_RANGE (a formula: the message says where it is none, and why), E_NOT_FINITE, E_HANDLE (body),
-/// E_STATE (the world wraps around), E_MEMORY, E_LOCKED, E_UNSUPPORTED (a library without laws). What sleeps where it acts wakes.
+/// E_STATE (the world wraps around), E_MEMORY, E_LOCKED, E_UNSUPPORTED (a library without laws, or without
+/// formulas). What sleeps where it acts wakes.
 PLUMB_API plumb_law plumb_law_create(plumb_world *world, const plumb_law_desc *desc);
 /// Takes it away. Errors: E_HANDLE, E_LOCKED.
 PLUMB_API plumb_result plumb_law_destroy(plumb_world *world, plumb_law law);

@@ -161,8 +161,14 @@ VOID(pl_waves_flow, const pl_basin *basin, const pl_wave_surface *surface, const
 GIVES(double, pl_wave_omega, 1, const pl_basin *basin, double k)
 #endif
 
-#if !PL_HAS(LAWS)
+#if !PL_HAS(FORMULAS)
 GIVES(bool, pl_formula_compile, false, const char *const texts[2], bool is_potential, pl_formula *out, pl_formula_fault *fault)
+GIVES(double, pl_formula_potential, 0, const plumb_world *world, const pl_law_now *law, double x, double y)
+VOID(pl_formulas_pull, const pl_law_system *system, const pl_law_state *states, double time, double *out, double *slopes)
+VOID(pl_formulas_heed, plumb_world *world, double dt)
+#endif
+
+#if !PL_HAS(LAWS)
 WANT(pl_want_laws)
 PASS(pl_run_orbits)
 ROW(pl_law_row)

@@ -154,6 +154,7 @@ static plumb_result check_formula(const plumb_world *world, const char *fn, cons
     if (d->kind != PLUMB_LAW_FORMULA) {
         return PLUMB_OK;
     }
+    PL_TRY(PL_CHECK_HAS(world, fn, "a formula", FORMULAS, "formulas"));
     if (!pl_formula_compile(texts, is_potential, &out->program, &fault)) {
         return pl_fail(world, PLUMB_E_RANGE, fn, "%s: %s",
                        is_potential      ? "potential"
@@ -161,6 +162,7 @@ static plumb_result check_formula(const plumb_world *world, const char *fn, cons
                                          : "formula_y",
                        fault.says);
     }
+    out->is_potential = is_potential;
     memset(out->texts, 0, sizeof out->texts); // behind their ends, too: they are saved
     for (int i = 0; i < 2; ++i) {
         if (texts[i] != NULL) {
@@ -173,9 +175,9 @@ static plumb_result check_formula(const plumb_world *world, const char *fn, cons
 // Its texts make its program, and no other bits.
 bool pl_law_formula_is_sound(const pl_law_formula *formula)
 {
-    const bool is_potential = formula->program.is_potential != 0;
+    const bool is_potential = formula->is_potential != 0;
     const char *texts[2];
-    bool sound = true;
+    bool sound = formula->is_potential <= 1;
     pl_formula made;
     pl_formula_fault fault;
     for (int i = 0; i < 2; ++i) {
@@ -196,7 +198,7 @@ bool pl_law_formula_is_sound(const pl_law_formula *formula)
 
 static void give_texts(const pl_law_formula *formula, plumb_law_desc *to)
 {
-    const bool is_potential = formula->program.is_potential != 0;
+    const bool is_potential = formula->is_potential != 0;
     const char *first = formula->texts[0][0] != 0 ? formula->texts[0] : NULL;
     to->formula_x = is_potential ? NULL : first;
     to->formula_y = formula->texts[1][0] != 0 ? formula->texts[1] : NULL;
@@ -246,8 +248,7 @@ static bool is_same(const pl_law_data *a, const pl_law_data *b)
 
 static bool is_same_formula(const pl_law_formula *a, const pl_law_formula *b)
 {
-    return memcmp(a->texts, b->texts, sizeof a->texts) == 0 &&
-           a->program.is_potential == b->program.is_potential;
+    return memcmp(a->texts, b->texts, sizeof a->texts) == 0 && a->is_potential == b->is_potential;
 }
 
 static bool reserve_formulas(plumb_world *world, uint32_t more)

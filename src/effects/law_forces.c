@@ -62,12 +62,11 @@ static void offset(const pl_law_now *law, const pl_law_state *states, const pl_l
     d[1] = at->y - (follows ? states[law->member].y : law->y + law->vy * time);
 }
 
-// A law takes hold of the body of index i and reaches it; the way to it, but of a law without end.
-static bool reach_for(const pl_law_system *system, const pl_law_now *law,
-                      const pl_law_state *states, uint32_t i, double time, double way[2])
+bool pl_law_acts(const pl_law_system *system, const pl_law_now *law, const pl_law_state *states,
+                 uint32_t i, double time)
 {
+    double way[2];
     const bool is_elsewhere = system->alone && law->member != PL_NONE;
-    way[0] = way[1] = 0;
     if (pl_law_hold_of(law->desc, &system->bodies[i]) == 0 || is_elsewhere || law->member == i) {
         return false;
     }
@@ -78,18 +77,11 @@ static bool reach_for(const pl_law_system *system, const pl_law_now *law,
     return pl_law_reaches(law, way[0], way[1]);
 }
 
-bool pl_law_acts(const pl_law_system *system, const pl_law_now *law, const pl_law_state *states,
-                 uint32_t i, double time)
+// It gives no force here, and replaces none.
+static inline bool is_other(const pl_law_data *d)
 {
-    double way[2];
-    return reach_for(system, law, states, i, time, way);
-}
-
-// Where one does, others may not act; with a place, it gives a force here.
-static bool is_placed(const pl_law_data *d)
-{
-    return d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_ATTRACTOR ||
-           (d->kind == PLUMB_LAW_FORMULA && d->combine == PLUMB_LAW_REPLACE);
+    return d->kind > PLUMB_LAW_ATTRACTOR &&
+           (d->kind != PLUMB_LAW_FORMULA || d->combine != PLUMB_LAW_REPLACE);
 }
 
 // The body of index i, from uniform laws and attractors; formulas may replace them.
@@ -101,19 +93,25 @@ static void pull_one(const pl_law_system *system, const pl_law_state *states, ui
     for (uint32_t k = 0; k < system->law_count; ++k) {
         const pl_law_now *law = &system->laws[k];
         const pl_law_data *d = law->desc;
-        double way[2];
-        if (!is_placed(d) || d->priority < floor[d->hold] ||
-            (!system->replaces && pl_law_is_endless(d)) ||
-            !reach_for(system, law, states, i, time, way)) {
+        const double hold = pl_law_hold_of(d, body);
+        const bool is_elsewhere = system->alone && law->member != PL_NONE;
+        if (hold == 0 || is_elsewhere || law->member == i || is_other(d) ||
+            d->priority < floor[d->hold] || (!system->replaces && pl_law_is_endless(d))) {
             continue;
+        }
+        double way[2] = { 0, 0 };
+        if (!pl_law_is_endless(d)) {
+            offset(law, states, &states[i], time, way);
+            if (!pl_law_reaches(law, way[0], way[1])) {
+                continue;
+            }
         }
         if (d->combine == PLUMB_LAW_REPLACE) {
             floor[d->hold] = d->priority;
+            if (d->kind == PLUMB_LAW_FORMULA) {
+                continue; // law_formula.c
+            }
         }
-        if (d->kind == PLUMB_LAW_FORMULA) {
-            continue; // law_formula.c
-        }
-        const double hold = pl_law_hold_of(d, body);
         const bool pulls = d->kind == PLUMB_LAW_ATTRACTOR;
         const double r = way[0] * way[0] + way[1] * way[1];
         const double k_f = pulls ? -(double)d->strength * pl_law_falloff(law, r) * hold : hold;
@@ -164,25 +162,19 @@ static void pull_pairs(const pl_law_system *system, const pl_law_now *law,
     }
 }
 
-void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time, double *out,
-                  double *slopes)
+void pl_laws_pull_plain(const pl_law_system *system, const pl_law_state *states, double time,
+                        double *out)
 {
     for (uint32_t i = 0; i < 2 * system->count; ++i) {
         out[i] = 0;
-    }
-    for (uint32_t i = 0; i < 4 * system->count && slopes != NULL; ++i) {
-        slopes[i] = 0;
     }
     for (uint32_t k = 0; k < system->law_count && system->sources > 0; ++k) {
         if (system->laws[k].desc->kind == PLUMB_LAW_MUTUAL) {
             pull_pairs(system, &system->laws[k], states, out);
         }
     }
-    for (uint32_t i = 0; i < system->count && system->others; ++i) {
+    for (uint32_t i = 0; i < system->count; ++i) {
         pull_one(system, states, i, time, out);
-    }
-    if (system->formulas) {
-        pl_formulas_pull(system, states, time, out, slopes);
     }
 }
 
@@ -257,33 +249,57 @@ pl_law_state pl_law_middle(const plumb_world *world, const pl_law_body *body, do
     return s;
 }
 
-// a, and the turn, become what the solver is to add to the velocity in a second. `slopes`: NULL, or of a body that a formula
-// of velocities may act on.
-static void give(const passage *p, const pl_law_system *system, const pl_law_body *body,
-                 const pl_law_state *state, const double a[2], const double *slopes)
+static void set_motion(const passage *p, const pl_law_body *body, double ax, double ay)
 {
     const uint32_t flags = p->world->bodies.flags[body->row];
     pl_solver_motion *motion = &pl_solver_motions(&p->world->solver)[body->slot];
+    motion->ax = (flags & PL_BODY_LOCK_X) != 0 ? 0 : (near_real)ax;
+    motion->ay = (flags & PL_BODY_LOCK_Y) != 0 ? 0 : (near_real)ay;
+}
+
+// a, and the turn, become what the solver is to add to the velocity in a second.
+static void give(const passage *p, const pl_law_system *system, const pl_law_body *body,
+                 const pl_law_state *state, const double a[2])
+{
+    const pl_solver_motion *motion = &pl_solver_motions(&p->world->solver)[body->slot];
     const double own = body->time * body->time;
     double ax = (double)motion->ax + own * (a[0] + body->ax);
     double ay = (double)motion->ay + own * (a[1] + body->ay);
-    const double w = pl_laws_spin(system, body, state, p->time) * body->time, t = w * p->h / 2;
-    if (slopes != NULL) {
-        // The turn is one more slope: what follows is Boris where there is no other.
-        const double all[] = { own * slopes[0], own * slopes[1] + w, own * slopes[2] - w,
-                               own * slopes[3] };
-        const double from[] = { ax + w * state->vy, ay - w * state->vx };
-        double kick[2];
-        pl_law_kick(from, all, p->h, kick);
-        ax = kick[0], ay = kick[1];
-    } else if (t != 0) {
+    const double t = pl_laws_spin(system, body, state, p->time) * body->time * p->h / 2;
+    if (t != 0) {
         const double vx = state->vx + p->h / 2 * ax, vy = state->vy + p->h / 2 * ay;
         const double s = 2 * t / (1 + t * t);
         ax += s * (vy - t * vx) / p->h;
         ay -= s * (vx + t * vy) / p->h;
     }
-    motion->ax = (flags & PL_BODY_LOCK_X) != 0 ? 0 : (near_real)ax;
-    motion->ay = (flags & PL_BODY_LOCK_Y) != 0 ? 0 : (near_real)ay;
+    set_motion(p, body, ax, ay);
+}
+
+// The same where a formula asks for velocities. The turn is one more slope: where there is no other, that is Boris again.
+static void give_solved(const passage *p, const pl_law_system *system, const pl_law_body *body,
+                        const pl_law_state *state, const double a[2], const double slopes[4])
+{
+    const pl_solver_motion *motion = &pl_solver_motions(&p->world->solver)[body->slot];
+    const double own = body->time * body->time;
+    const double w = pl_laws_spin(system, body, state, p->time) * body->time;
+    const double all[] = { own * slopes[0], own * slopes[1] + w, own * slopes[2] - w,
+                           own * slopes[3] };
+    const double from[] = { (double)motion->ax + own * (a[0] + body->ax) + w * state->vy,
+                            (double)motion->ay + own * (a[1] + body->ay) - w * state->vx };
+    double kick[2];
+    pl_law_kick(from, all, p->h, kick);
+    set_motion(p, body, kick[0], kick[1]);
+}
+
+static void give_either(const passage *p, const pl_law_system *system, uint32_t i,
+                        const pl_law_state *states, const double *a, const double *slopes)
+{
+    const pl_law_body *body = &system->bodies[i];
+    if (body->dragged) {
+        give_solved(p, system, body, &states[i], &a[2 * i], &slopes[4 * i]);
+    } else {
+        give(p, system, body, &states[i], &a[2 * i]);
+    }
 }
 
 static void push_single(void *context, uint32_t first, uint32_t count)
@@ -296,7 +312,7 @@ static void push_single(void *context, uint32_t first, uint32_t count)
         const pl_law_state state = pl_law_middle(p->world, body, p->h);
         double a[2];
         pl_laws_pull(&system, &state, p->time, a, NULL);
-        give(p, &system, body, &state, a, NULL);
+        give(p, &system, body, &state, a);
     }
 }
 
@@ -314,8 +330,7 @@ static void push_block(const passage *p, const pl_keyed *pushed, uint32_t count)
     }
     pl_laws_pull(&system, states, p->time, a, slopes);
     for (uint32_t i = 0; i < count; ++i) {
-        give(p, &system, &bodies[i], &states[i], &a[2 * i],
-             bodies[i].dragged ? &slopes[4 * i] : NULL);
+        give_either(p, &system, i, states, a, slopes);
     }
 }
 
@@ -340,9 +355,8 @@ static void push_coupled(const passage *p)
     }
     pl_laws_pull(&system, states, p->time, a, slopes);
     for (uint32_t i = 0; i < system.count; ++i) {
-        const pl_law_body *body = &system.bodies[i];
-        if (body->slot != PL_NONE) {
-            give(p, &system, body, &states[i], &a[2 * i], body->dragged ? &slopes[4 * i] : NULL);
+        if (system.bodies[i].slot != PL_NONE) {
+            give_either(p, &system, i, states, a, slopes);
         }
     }
 }

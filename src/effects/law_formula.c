@@ -15,6 +15,7 @@
 #include "world/rows.h"
 
 #include <math.h>
+#include <string.h>
 
 // [m/s^2], [N/C] or [1/s]: what other laws may have at the most.
 #define MOST 1e30
@@ -195,21 +196,34 @@ static void gather(const view *v, block *b, const pl_law_system *system, const p
     }
 }
 
+static void pull(const view *v, const pl_law_system *system, const pl_law_state *states,
+                 double time, double *out, double *slopes)
+{
+    for (uint32_t first = 0; first < system->count; first += PL_LAW_BLOCK) {
+        block b;
+        gather(v, &b, system, states, first, time);
+        if (b.count > 0) {
+            act(v, &b, system, first, out, slopes);
+        }
+    }
+}
+
 void pl_formulas_pull(const pl_law_system *system, const pl_law_state *states, double time,
                       double *out, double *slopes)
 {
+    if (system->others) {
+        pl_laws_pull_plain(system, states, time, out);
+    } else {
+        memset(out, 0, 2 * (size_t)system->count * sizeof *out);
+    }
+    if (slopes != NULL) {
+        memset(slopes, 0, 4 * (size_t)system->count * sizeof *slopes);
+    }
     for (uint32_t k = 0; k < system->law_count; ++k) {
         view v;
-        if (system->laws[k].formula == NULL) {
-            continue;
-        }
-        look(&v, system->world, &system->laws[k], time);
-        for (uint32_t first = 0; first < system->count; first += PL_LAW_BLOCK) {
-            block b;
-            gather(&v, &b, system, states, first, time);
-            if (b.count > 0) {
-                act(&v, &b, system, first, out, slopes);
-            }
+        if (system->laws[k].formula != NULL) {
+            look(&v, system->world, &system->laws[k], time);
+            pull(&v, system, states, time, out, slopes);
         }
     }
 }

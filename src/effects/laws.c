@@ -95,6 +95,7 @@ bool pl_law_place(const plumb_world *world, const pl_law *item, pl_law_now *law)
     const pl_law_formula *formula = pl_law_formula_of(&world->laws, item);
     *law = (pl_law_now){ .desc = d,
                          .formula = formula != NULL ? &formula->program : NULL,
+                         .drags = formula != NULL && formula->program.uses_velocity != 0,
                          .x = (double)d->position.x,
                          .y = (double)d->position.y,
                          .square = (double)d->softening * (double)d->softening,
@@ -218,7 +219,7 @@ static role role_of(const plumb_world *world, const pl_law_body *body, double dt
         const bool is_near = dx * dx + dy * dy <= near * near;
         r.acted_on |= is_near;
         r.coupled |= is_near && law->carrier != PL_NONE;
-        r.dragged |= is_near && law->formula != NULL && law->formula->uses_velocity != 0;
+        r.dragged |= is_near && law->drags;
     }
     return r;
 }

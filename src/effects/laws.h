@@ -108,8 +108,11 @@ typedef struct pl_law_system {
 
 // Accelerations (x, y a body) at a time [s] since the step began, but for those in the bodies' ax, ay, and for magnetic
 // laws. `slopes`, if not NULL: how they change with a body's velocity, [1/s] ax by vx, ax by vy, ay by vx, ay by vy.
-void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time, double *out,
-                  double *slopes);
+static inline void pl_laws_pull(const pl_law_system *system, const pl_law_state *states,
+                                double time, double *out, double *slopes);
+// Those of laws that are no formulas.
+void pl_laws_pull_plain(const pl_law_system *system, const pl_law_state *states, double time,
+                        double *out);
 // What is to be added to a velocity in a second of h seconds in which the acceleration a [m/s^2] changes with it by `slopes`.
 void pl_law_kick(const double a[2], const double slopes[4], double h, double out[2]);
 // A law takes hold of the body of index i and reaches it.
@@ -186,13 +189,23 @@ pl_law_state pl_law_state_of(const plumb_world *world, uint32_t row);
 // Bodies that are taken together.
 #define PL_LAW_BLOCK PL_FORMULA_LANES
 
-// Adds what formulas give each body; slopes as of pl_laws_pull.
+// As pl_laws_pull, where some law is a formula.
 void pl_formulas_pull(const pl_law_system *system, const pl_law_state *states, double time,
                       double *out, double *slopes);
 // [J] that a body has in a law whose formula is a potential.
 double pl_formula_potential(const plumb_world *world, const pl_law_now *law, double x, double y);
 // Who wakes or does not fall asleep because a formula of the time changes where it is.
 void pl_formulas_heed(plumb_world *world, double dt);
+
+static inline void pl_laws_pull(const pl_law_system *system, const pl_law_state *states,
+                                double time, double *out, double *slopes)
+{
+    if (system->formulas) {
+        pl_formulas_pull(system, states, time, out, slopes);
+    } else {
+        pl_laws_pull_plain(system, states, time, out);
+    }
+}
 
 //---- orbits.c ------------------------------------------------------------------------------------
 

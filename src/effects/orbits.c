@@ -122,7 +122,7 @@ static void flow_one(const voyage *v, uint32_t i, double time, double t)
     s->vy = vx * by.e[1] + vy * by.e[0] + t * (ax * by.p[1] + ay * by.p[0]);
 }
 
-static void flow(const voyage *v, double time, double t)
+static inline void flow(const voyage *v, double time, double t)
 {
     for (uint32_t i = 0; i < v->system.count; ++i) {
         if (v->system.bodies[i].mass > 0) {
@@ -327,15 +327,23 @@ static bool is_bent(const pl_law_system *system)
     return bent;
 }
 
+static bool is_dragged(const pl_law_system *system)
+{
+    bool dragged = false;
+    for (uint32_t i = 0; i < system->count; ++i) {
+        dragged |= system->bodies[i].dragged;
+    }
+    return dragged;
+}
+
 static void travel(voyage *v, double dt)
 {
     const plumb_world *world = v->system.world;
     const plumb_orbit_desc orbits = pl_orbits_of(world);
-    v->dragged = false;
     for (uint32_t i = 0; i < v->system.count; ++i) {
         set_out(v, i);
-        v->dragged |= v->system.bodies[i].dragged;
     }
+    v->dragged = v->system.formulas && is_dragged(&v->system);
     if (!is_bent(&v->system)) {
         flow(v, 0, dt);
     } else if (orbits.tolerance > 0) {

@@ -59,22 +59,14 @@ uint16_t pl_graph_leaf(pl_graph *g, pl_formula_op op)
     return find(g, (pl_node){ .op = (uint8_t)op, .is_even = op == PL_OP_TIME });
 }
 
-static double worked_out(pl_formula_op op, double a, double b, double c)
-{
-    double values[] = { a, b, c, 0 };
-    const pl_formula_step alone = { .op = (uint8_t)op, .to = 3, .a = 0, .b = 1, .c = 2 };
-    pl_formula_step_over(&alone, values, values, 1);
-    return values[3];
-}
-
 uint16_t pl_graph_node(pl_graph *g, pl_formula_op op, uint16_t a, uint16_t b, uint16_t c)
 {
     const int takes = pl_formula_takes(op);
     b = takes < 2 ? a : b;
     c = takes < 3 ? a : c;
     if (pl_graph_is_number(g, a) && pl_graph_is_number(g, b) && pl_graph_is_number(g, c)) {
-        return pl_graph_number(
-            g, worked_out(op, pl_graph_value(g, a), pl_graph_value(g, b), pl_graph_value(g, c)));
+        return pl_graph_number(g, pl_formula_value(op, pl_graph_value(g, a), pl_graph_value(g, b),
+                                                   pl_graph_value(g, c)));
     }
     const bool commutes = op == PL_OP_ADD || op == PL_OP_MULTIPLY;
     pl_node n = { .op = (uint8_t)op,

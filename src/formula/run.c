@@ -3,18 +3,51 @@
 // Reads: program, constants, inputs. Writes: constants; registers. Cost: O(steps).
 #include "formula/ops.h"
 
+static __attribute__((noinline)) double call(pl_formula_op op, double a, double b, double c)
+{
+    switch (op) {
+#define CASE(name, takes, value)                                                                   \
+    case PL_OP_##name:                                                                             \
+        return value;
+        PL_FORMULA_FUNCTIONS(CASE)
+#undef CASE
+#define CASE(name, takes, value, far)                                                              \
+    case PL_OP_##name:                                                                             \
+        return pl_lane_abs(a) > PL_LANE_TURN_MOST ? far : value;
+        PL_FORMULA_ANGLES(CASE)
+#undef CASE
+    default:
+        return 0;
+    }
+}
+
+double pl_formula_value(pl_formula_op op, double a, double b, double c)
+{
+    switch (op) { // what is most of it takes no call
+#define CASE(name, takes, value)                                                                   \
+    case PL_OP_##name:                                                                             \
+        return value;
+        PL_FORMULA_ARITHMETIC(CASE)
+#undef CASE
+    default:
+        return call(op, a, b, c);
+    }
+}
+
+static double operand(const double *constants, const double *registers, uint8_t at)
+{
+    return at < PL_FORMULA_CONSTANT ? registers[at] : constants[at - PL_FORMULA_CONSTANT];
+}
+
 void pl_formula_begin(const pl_formula *f, double time, double constants[PL_FORMULA_CONSTANTS])
 {
     memcpy(constants, f->constants, f->constant_count * sizeof *constants);
     constants[0] = time;
     for (uint32_t i = 0; i < f->even_end; ++i) {
         const pl_formula_step *s = &f->steps[i];
-        double values[] = { constants[s->a - PL_FORMULA_CONSTANT],
-                            constants[s->b - PL_FORMULA_CONSTANT],
-                            constants[s->c - PL_FORMULA_CONSTANT], 0 };
-        const pl_formula_step alone = { .op = s->op, .to = 3, .a = 0, .b = 1, .c = 2 };
-        pl_formula_step_over(&alone, constants, values, 1);
-        constants[s->to - PL_FORMULA_CONSTANT] = values[3];
+        constants[s->to - PL_FORMULA_CONSTANT] = pl_formula_value(
+            (pl_formula_op)s->op, constants[s->a - PL_FORMULA_CONSTANT],
+            constants[s->b - PL_FORMULA_CONSTANT], constants[s->c - PL_FORMULA_CONSTANT]);
     }
 }
 
@@ -23,6 +56,9 @@ void pl_formula_at(const pl_formula *f, const double *constants,
 {
     const uint32_t end = whole ? f->end : f->force_end;
     for (uint32_t i = f->even_end; i < end; ++i) {
-        pl_formula_step_over(&f->steps[i], constants, registers, 1);
+        const pl_formula_step *s = &f->steps[i];
+        registers[s->to] = pl_formula_value(
+            (pl_formula_op)s->op, operand(constants, registers, s->a),
+            operand(constants, registers, s->b), operand(constants, registers, s->c));
     }
 }

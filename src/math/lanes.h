@@ -8,8 +8,8 @@
 // nothing. Taylor to r^17 and r^16, |r| <= pi/4: terms left out are below 1e-19.
 // exp: x = k ln 2 + r, |r| <= ln(2) / 2, Taylor to r^13: below 5e-18. log: m in [sqrt(1/2), sqrt(2)), 2 artanh((m - 1) / (m + 1))
 // to the 21st power: below 1e-18. Errors against a long double: tests/unit/test_lanes.c.
-#ifndef PL_LANES_H
-#define PL_LANES_H
+#ifndef PL_MATH_LANES_H
+#define PL_MATH_LANES_H
 
 #include <stdint.h>
 #include <string.h>

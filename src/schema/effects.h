@@ -35,10 +35,11 @@
       "fluid", "volumes that lift and drag: water, wind")                                                                      \
     X(WAVES, "waves", "fluids", "src/effects/waves.c src/effects/tides.c src/geometry/harmonics.c", "",                        \
       "surfaces of water that bodies stir")                                                                                    \
-    X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/law_formula.c "       \
-      "src/effects/orbits.c src/effects/dipoles.c src/effects/law_rest.c src/formula/%",                                       \
+    X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/orbits.c "            \
+      "src/effects/dipoles.c src/effects/law_rest.c",                                                                          \
       "charge attraction dipole dipole_angle",                                                                                 \
-      "forces at a distance: attractors, gravitation, zones, magnetic fields, formulas, dipoles")                              \
+      "forces at a distance: attractors, gravitation, zones, magnetic fields, dipoles")                                        \
+    X(FORMULAS, "formulas", "laws", "src/formula/% src/effects/law_formula.c", "", "forces at a distance that texts give")     \
     X(FRACTURE, "fracture", "", "src/api/breaking.c src/api/command_fracture.c src/api/divide.c src/api/fracture.c "           \
       "src/api/fragments.c src/api/merge.c src/event/breaking.c src/geometry/region.c",                                        \
       "break_force break_impulse break_energy break_cells",                                                                    \

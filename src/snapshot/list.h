@@ -173,7 +173,7 @@
 
 #define PL_STATE_LAWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     ARRAY(pl_law, laws.items, laws.count, sizeof(pl_law), 8)                                       \
-    ARRAY(pl_law_formula, laws.formulas, laws.formula_count, sizeof(pl_law_formula), 8)            \
+    ARRAY(pl_law_formula, laws.formulas, laws.formula_count, offsetof(pl_law_formula, program), 8)  \
     ARRAY(plumb_orbit_desc, laws.orbits, laws.orbit_count, sizeof(plumb_orbit_desc), 0)            \
     LEFT(laws.step)
 

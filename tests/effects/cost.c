@@ -53,6 +53,12 @@ static void add(plumb_world *world)
              !plumb_is_null(plumb_law_create(world, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR,
                                                                        .position = { 0, -50 },
                                                                        .strength = 1 })));
+    } else if (is("formulas")) {
+        must(world,
+             !plumb_is_null(plumb_law_create(world, &(plumb_law_desc){ .kind = PLUMB_LAW_FORMULA,
+                                                                       .position = { 0, -50 },
+                                                                       .formula_x = "-x / r^3",
+                                                                       .formula_y = "-y / r^3" })));
     } else if (is("liquid")) {
         must(world,
              plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = R(0.1) }) == PLUMB_OK);

@@ -27,8 +27,9 @@ _Static_assert(PLUMB_LAW_FORMULA_MOST == PL_FORMULA_TEXT - 1, "a text and its 0"
 // What a law of the kind formula has besides. They stand in the order of their laws.
 typedef struct pl_law_formula {
     plumb_law law;
-    pl_formula program;
     char texts[2][PL_FORMULA_TEXT]; // of x and y, or of the potential; none: empty
+    uint64_t is_potential;          // 0 or 1
+    pl_formula program;             // follows from them: not hashed
 } pl_law_formula;
 
 // A law in a step: by falling priority, then in the order in which they were made.
@@ -44,6 +45,7 @@ typedef struct pl_law_now {
     uint32_t carrier;     // row of an awake dynamic body; PL_NONE
     uint32_t member;      // the same among those that fly or are pushed together; PL_NONE
     bool moved;           // it is not where the last step had it
+    bool drags;           // a formula that asks for velocities
 } pl_law_now;
 
 // How a body gets what the laws give it in this step.
