@@ -312,7 +312,7 @@ static const malformed table[] = {
       .file = "scene.lua",
       .text = "body{ box{1, 1}, friction = 0.4 }",
       .code = SCENE_E_KEY,
-      .message = "scene.lua:1:18: unknown key 'friction' in body{}; it belongs to material{}, material_pair{}, rope{} and others" },
+      .message = "scene.lua:1:18: unknown key 'friction' in body{}; it belongs to material{}, material_pair{}, liquid{} and others" },
     { .what = "a setting in a body",
       .file = "scene.lua",
       .text = "body{ box{1, 1}, substeps = 4 }",
