@@ -2,6 +2,7 @@
 // recordings, out of memory.
 #include "harness/heap.h"
 #include "harness/recording.h"
+#include "harness/sim.h"
 #include "world_fixture.h"
 
 #include <stdlib.h>
@@ -312,27 +313,14 @@ static void pistons_in_closed_rooms(void **state)
 
 //---- what is absent ------------------------------------------------------------------------------
 
-static bool has_row(plumb_world *w, const char *name)
-{
-    plumb_pass_info rows[128];
-    const int count = plumb_world_schedule(w, rows, 128);
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, name) == 0) {
-            return rows[i].scheduled;
-        }
-    }
-    fail();
-    return false;
-}
-
 static void without_air_there_is_no_pass(void **state)
 {
     (void)state;
     plumb_world *w = make_room((plumb_world_desc){ 0 }),
                 *never = make_room((plumb_world_desc){ 0 });
     run(w, 1);
-    assert_false(has_row(w, "air"));
-    assert_false(has_row(w, "air motion"));
+    assert_false(sim_has_pass(w, "air"));
+    assert_false(sim_has_pass(w, "air motion"));
     assert_int_equal(fill(w), PLUMB_OK);
     plumb_air_destroy(w); // and has left nothing
     run(w, 30);
@@ -340,11 +328,11 @@ static void without_air_there_is_no_pass(void **state)
     assert_true(plumb_world_hash(w) == plumb_world_hash(never));
     assert_int_equal(fill(w), PLUMB_OK);
     run(w, 1);
-    assert_true(has_row(w, "air"));
-    assert_true(has_row(w, "air motion"));
+    assert_true(sim_has_pass(w, "air"));
+    assert_true(sim_has_pass(w, "air motion"));
     assert_int_equal(plumb_air_destroy(w), PLUMB_OK);
     run(w, 1);
-    assert_false(has_row(w, "air"));
+    assert_false(sim_has_pass(w, "air"));
     plumb_world_destroy(w);
     plumb_world_destroy(never);
 }
@@ -366,15 +354,6 @@ static void threads_and_widths_change_no_bit(void **state)
     }
 }
 
-static void *save(const plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
-    return bytes;
-}
-
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
@@ -382,10 +361,10 @@ static void images_go_on_with_the_same_bits(void **state)
     plumb_world *other = make_room((plumb_world_desc){ .workers = 2 });
     size_t size, later_size;
     run(w, 30);
-    void *bytes = save(w, &size);
+    void *bytes = sim_save(w, &size);
     run(w, 30);
     const uint64_t end = plumb_world_hash(w);
-    void *later = save(w, &later_size);
+    void *later = sim_save(w, &later_size);
     assert_int_equal(plumb_world_restore(other, bytes, size), PLUMB_OK);
     run(other, 30);
     assert_true(plumb_world_hash(other) == end);
@@ -403,7 +382,7 @@ static void images_go_on_with_the_same_bits(void **state)
     // One where there is no air.
     plumb_world *none = make_room((plumb_world_desc){ 0 });
     size_t none_size;
-    void *none_bytes = save(none, &none_size);
+    void *none_bytes = sim_save(none, &none_size);
     assert_int_equal(plumb_world_restore(w, none_bytes, none_size), PLUMB_OK);
     assert_null(plumb_air_sources(w, NULL));
     run(w, 20);

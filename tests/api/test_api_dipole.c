@@ -2,6 +2,7 @@
 // of memory, bodies that are cut. Motion against closed forms: tests/analytic/test_dipoles.c.
 #include "harness/heap.h"
 #include "harness/recording.h"
+#include "harness/sim.h"
 #include "world_fixture.h"
 
 #include <stdlib.h>
@@ -91,19 +92,6 @@ static void properties_are_checked(void **state)
     assert_int_equal(plumb_body_set_dipole(w, f->dynamic, 0), PLUMB_OK);
 }
 
-static bool has_row(plumb_world *w, const char *name)
-{
-    plumb_pass_info rows[128];
-    const int count = plumb_world_schedule(w, rows, 128);
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, name) == 0) {
-            return rows[i].scheduled;
-        }
-    }
-    fail();
-    return false;
-}
-
 // Without a law there is nothing to do, nor without a dipole, whatever else has a charge.
 static void without_dipoles_there_is_no_pass(void **state)
 {
@@ -113,13 +101,13 @@ static void without_dipoles_there_is_no_pass(void **state)
     const plumb_law_desc d = mutual(1);
     const plumb_law law = plumb_law_create(w, &d);
     run(w, 1);
-    assert_true(has_row(w, "law forces") && !has_row(w, "dipoles"));
+    assert_true(sim_has_pass(w, "law forces") && !sim_has_pass(w, "dipoles"));
     plumb_body_set_dipole(w, b, 1);
     run(w, 1);
-    assert_true(has_row(w, "dipoles"));
+    assert_true(sim_has_pass(w, "dipoles"));
     plumb_law_destroy(w, law);
     run(w, 1);
-    assert_false(has_row(w, "dipoles"));
+    assert_false(sim_has_pass(w, "dipoles"));
     plumb_world_destroy(w);
 }
 
@@ -417,15 +405,6 @@ static void threads_and_widths_change_no_bit(void **state)
     }
 }
 
-static void *save(const plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
-    return bytes;
-}
-
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
@@ -436,10 +415,10 @@ static void images_go_on_with_the_same_bits(void **state)
     size_t size, later_size;
     for (int start = 40; start < 1000; start *= 3) { // in motion, and when some sleep
         run(w, start);
-        void *bytes = save(w, &size);
+        void *bytes = sim_save(w, &size);
         run(w, 150);
         const uint64_t end = plumb_world_hash(w);
-        void *later = save(w, &later_size);
+        void *later = sim_save(w, &later_size);
         assert_int_equal(plumb_world_restore(other, bytes, size), PLUMB_OK);
         run(other, 150);
         assert_true(plumb_world_hash(other) == end);
@@ -491,8 +470,10 @@ static void recordings_hold_them(void **state)
     plumb_world_destroy(b.w);
 }
 
+static int refused_steps; // of all plays
+
 // Every allocation fails once: the step is refused and succeeds when it is tried again, in the same bits.
-static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
+static uint64_t play(heap *h, long fail_at, long *calls, int *refused)
 {
     *h = (heap){ .fail_at = -1 };
     plumb_world *w =
@@ -505,11 +486,12 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
     for (int i = 0; i < 20; ++i) {
         plumb_result r;
         while ((r = plumb_world_step(w, DT)) == PLUMB_E_MEMORY) {
-            ++*refusals;
+            ++refused_steps;
         }
         assert_int_equal(r, PLUMB_OK);
     }
     *calls = h->calls - before;
+    *refused = (int)h->refused;
     const uint64_t hash = plumb_world_hash(w);
     plumb_world_destroy(w);
     assert_int_equal(h->bytes, 0);
@@ -519,16 +501,9 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
 static void any_allocation_may_fail(void **state)
 {
     (void)state;
-    static heap h;
-    long calls, unused;
-    int refusals = 0;
-    const uint64_t hash = play(&h, -1, &calls, &refusals);
-    assert_int_equal(refusals, 0);
-    assert_in_range(calls, 6, 400);
-    for (long k = 0; k < calls; ++k) {
-        assert_true(play(&h, k, &unused, &refusals) == hash);
-    }
-    assert_in_range(refusals, 4, calls);
+    refused_steps = 0;
+    heap_fail_each(play, 6, 400);
+    assert_in_range(refused_steps, 4, 400);
 }
 
 int main(void)

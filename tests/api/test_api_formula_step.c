@@ -4,6 +4,7 @@
 
 #include "harness/heap.h"
 #include "harness/recording.h"
+#include "harness/sim.h"
 
 #include <stdlib.h>
 
@@ -116,15 +117,6 @@ static void a_body_has_the_same_bits_in_any_block(void **state)
     }
 }
 
-static void *save(const plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
-    return bytes;
-}
-
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
@@ -132,10 +124,10 @@ static void images_go_on_with_the_same_bits(void **state)
     plumb_world *other = make_world((plumb_world_desc){ .workers = 2 }); // a new one
     size_t size, later_size;
     run(w, 40);
-    void *bytes = save(w, &size);
+    void *bytes = sim_save(w, &size);
     run(w, 80);
     const uint64_t end = plumb_world_hash(w);
-    void *later = save(w, &later_size);
+    void *later = sim_save(w, &later_size);
     assert_int_equal(plumb_world_restore(other, bytes, size), PLUMB_OK);
     plumb_law laws[LAWS];
     assert_int_equal(plumb_world_laws(other, laws, LAWS), LAWS);

@@ -2,6 +2,7 @@
 // sleep, out of memory. Orbits against closed forms: tests/analytic/test_orbits.c.
 #include "harness/heap.h"
 #include "harness/recording.h"
+#include "harness/sim.h"
 #include "world_fixture.h"
 
 #include <stdlib.h>
@@ -305,19 +306,6 @@ static void who_comes_into_reach_by_surprise_keeps_momentum(void **state)
 
 //---- the step ------------------------------------------------------------------------------------
 
-static bool has_row(plumb_world *w, const char *name)
-{
-    plumb_pass_info rows[128];
-    const int count = plumb_world_schedule(w, rows, 128);
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, name) == 0) {
-            return rows[i].scheduled;
-        }
-    }
-    fail();
-    return false;
-}
-
 // A round planet with boxes on it, a moon, and planets that attract one another far away.
 static plumb_world *make_sky(plumb_world_desc desc)
 {
@@ -371,18 +359,18 @@ static void without_laws_there_is_no_pass(void **state)
     plumb_law laws[3];
     run(w, 1);
     for (int i = 0; i < 4; ++i) {
-        assert_false(has_row(w, rows[i]));
+        assert_false(sim_has_pass(w, rows[i]));
     }
     add_laws(w, laws);
     run(w, 1);
     for (int i = 0; i < 4; ++i) {
-        assert_true(has_row(w, rows[i]));
+        assert_true(sim_has_pass(w, rows[i]));
     }
     for (int i = 0; i < 3; ++i) {
         assert_int_equal(plumb_law_destroy(w, laws[i]), PLUMB_OK);
     }
     run(w, 1);
-    assert_false(has_row(w, "laws"));
+    assert_false(sim_has_pass(w, "laws"));
     // Laws that act on nobody change nothing.
     run(like, 30);
     plumb_world *other = make_sky((plumb_world_desc){ 0 });
@@ -411,15 +399,6 @@ static void threads_and_widths_change_no_bit(void **state)
     }
 }
 
-static void *save(const plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
-    return bytes;
-}
-
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
@@ -428,10 +407,10 @@ static void images_go_on_with_the_same_bits(void **state)
     plumb_world_set_orbits(w, &(plumb_orbit_desc){ .order = 4 });
     size_t size, later_size;
     run(w, 40);
-    void *bytes = save(w, &size);
+    void *bytes = sim_save(w, &size);
     run(w, 80);
     const uint64_t end = plumb_world_hash(w);
-    void *later = save(w, &later_size);
+    void *later = sim_save(w, &later_size);
     assert_int_equal(plumb_world_restore(other, bytes, size), PLUMB_OK);
     plumb_orbit_desc d;
     plumb_world_orbits(other, &d);
@@ -526,8 +505,10 @@ static double sum_of(plumb_world *w)
     return sum;
 }
 
+static int refused_steps; // of all plays
+
 // Every allocation fails once: the step is refused, moves nothing, and succeeds when it is tried again.
-static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
+static uint64_t play(heap *h, long fail_at, long *calls, int *refused)
 {
     *h = (heap){ .fail_at = -1 };
     plumb_world *w =
@@ -541,12 +522,13 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
         const double before_it = sum_of(w);
         plumb_result r;
         while ((r = plumb_world_step(w, DT)) == PLUMB_E_MEMORY) {
-            ++*refusals;
+            ++refused_steps;
             assert_true(sum_of(w) == before_it);
         }
         assert_int_equal(r, PLUMB_OK);
     }
     *calls = h->calls - before;
+    *refused = (int)h->refused;
     const uint64_t hash = plumb_world_hash(w);
     plumb_world_destroy(w);
     assert_int_equal(h->bytes, 0);
@@ -556,16 +538,9 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
 static void any_allocation_may_fail(void **state)
 {
     (void)state;
-    static heap h;
-    long calls, unused;
-    int refusals = 0;
-    const uint64_t hash = play(&h, -1, &calls, &refusals);
-    assert_int_equal(refusals, 0);
-    assert_in_range(calls, 6, 400);
-    for (long k = 0; k < calls; ++k) {
-        assert_true(play(&h, k, &unused, &refusals) == hash);
-    }
-    assert_in_range(refusals, 4, calls);
+    refused_steps = 0;
+    heap_fail_each(play, 6, 400);
+    assert_in_range(refused_steps, 4, 400);
 }
 
 int main(void)

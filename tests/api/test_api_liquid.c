@@ -2,6 +2,7 @@
 // deltas, threads and widths, recordings, out of memory.
 #include "harness/heap.h"
 #include "harness/recording.h"
+#include "harness/sim.h"
 #include "world_fixture.h"
 
 #include <stdlib.h>
@@ -262,33 +263,20 @@ static void bodies_beyond_bounds_leave_it_finite(void **state)
 
 //---- what is absent ------------------------------------------------------------------------------
 
-static bool has_row(plumb_world *w, const char *name)
-{
-    plumb_pass_info rows[128];
-    const int count = plumb_world_schedule(w, rows, 128);
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, name) == 0) {
-            return rows[i].scheduled;
-        }
-    }
-    fail();
-    return false;
-}
-
 static void without_particles_there_is_no_pass(void **state)
 {
     (void)state;
     plumb_world *w = make_tank((plumb_world_desc){ 0 }), *like = make_tank((plumb_world_desc){ 0 });
     run(w, 1);
-    assert_false(has_row(w, "liquid"));
-    assert_false(has_row(w, "liquid motion"));
+    assert_false(sim_has_pass(w, "liquid"));
+    assert_false(sim_has_pass(w, "liquid motion"));
     assert_int_equal(fill(w), PLUMB_OK);
     run(w, 1);
-    assert_true(has_row(w, "liquid"));
-    assert_true(has_row(w, "liquid motion"));
+    assert_true(sim_has_pass(w, "liquid"));
+    assert_true(sim_has_pass(w, "liquid motion"));
     assert_int_equal(plumb_liquid_destroy(w), PLUMB_OK);
     run(w, 1);
-    assert_false(has_row(w, "liquid"));
+    assert_false(sim_has_pass(w, "liquid"));
     run(like, 3);
     // A liquid without particles moves nothing, and one that is gone has left nothing.
     plumb_liquid_create(like, NULL);
@@ -406,15 +394,6 @@ static void what_spills_takes_no_room(void **state)
     plumb_world_destroy(w);
 }
 
-static void *save(const plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
-    return bytes;
-}
-
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
@@ -422,10 +401,10 @@ static void images_go_on_with_the_same_bits(void **state)
     plumb_world *other = make_tank((plumb_world_desc){ .workers = 2 });
     size_t size, later_size;
     run(w, 40); // the drop is in the midst of its splash
-    void *bytes = save(w, &size);
+    void *bytes = sim_save(w, &size);
     run(w, 40);
     const uint64_t end = plumb_world_hash(w);
-    void *later = save(w, &later_size);
+    void *later = sim_save(w, &later_size);
     assert_int_equal(plumb_world_restore(other, bytes, size), PLUMB_OK);
     run(other, 40);
     assert_true(plumb_world_hash(other) == end);
@@ -444,7 +423,7 @@ static void images_go_on_with_the_same_bits(void **state)
     // One where there is no liquid.
     plumb_world *dry = make_tank((plumb_world_desc){ 0 });
     size_t dry_size;
-    void *dry_bytes = save(dry, &dry_size);
+    void *dry_bytes = sim_save(dry, &dry_size);
     assert_int_equal(plumb_world_restore(w, dry_bytes, dry_size), PLUMB_OK);
     assert_int_equal(count_of(w), 0);
     run(w, 20);

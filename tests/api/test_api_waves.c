@@ -2,6 +2,7 @@
 // recordings, out of memory.
 #include "harness/heap.h"
 #include "harness/recording.h"
+#include "harness/sim.h"
 #include "world_fixture.h"
 
 #include <stdlib.h>
@@ -368,26 +369,13 @@ static void extremes_stay_finite(void **state)
 
 //---- what is absent ------------------------------------------------------------------------------
 
-static bool has_row(plumb_world *w, const char *name)
-{
-    plumb_pass_info rows[128];
-    const int count = plumb_world_schedule(w, rows, 128);
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, name) == 0) {
-            return rows[i].scheduled;
-        }
-    }
-    fail();
-    return false;
-}
-
 static void without_waves_there_is_no_pass(void **state)
 {
     (void)state;
     bay b = make_bay((plumb_world_desc){ 0 }), never = make_bay((plumb_world_desc){ 0 });
     run(b.w, 1);
-    assert_false(has_row(b.w, "waves"));
-    assert_false(has_row(b.w, "wave motion"));
+    assert_false(sim_has_pass(b.w, "waves"));
+    assert_false(sim_has_pass(b.w, "wave motion"));
     assert_int_equal(plumb_waves_create(b.w, b.water, &swell), PLUMB_OK);
     assert_int_equal(plumb_waves_destroy(b.w, b.water), PLUMB_OK); // and has left nothing
     run(b.w, 60);
@@ -395,8 +383,8 @@ static void without_waves_there_is_no_pass(void **state)
     assert_true(plumb_world_hash(b.w) == plumb_world_hash(never.w));
     assert_int_equal(plumb_waves_create(b.w, b.water, &swell), PLUMB_OK);
     run(b.w, 1);
-    assert_true(has_row(b.w, "waves"));
-    assert_true(has_row(b.w, "wave motion"));
+    assert_true(sim_has_pass(b.w, "waves"));
+    assert_true(sim_has_pass(b.w, "wave motion"));
     plumb_world_destroy(b.w);
     plumb_world_destroy(never.w);
 }
@@ -415,15 +403,6 @@ static void threads_and_widths_change_no_bit(void **state)
         assert_true(hashes[i] == hashes[0]);
         plumb_world_destroy(b.w);
     }
-}
-
-static void *save(const plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
-    return bytes;
 }
 
 // Water that comes to another body, gets another size and its own again, or another form that is the same.
@@ -484,10 +463,10 @@ static void images_go_on_with_the_same_bits(void **state)
     bay other = make_bay((plumb_world_desc){ .workers = 2 });
     size_t size, later_size;
     run(b.w, 50); // in mid splash
-    void *bytes = save(b.w, &size);
+    void *bytes = sim_save(b.w, &size);
     run(b.w, 60);
     const uint64_t end = plumb_world_hash(b.w);
-    void *later = save(b.w, &later_size);
+    void *later = sim_save(b.w, &later_size);
     assert_int_equal(plumb_world_restore(other.w, bytes, size), PLUMB_OK);
     run(other.w, 60);
     assert_true(plumb_world_hash(other.w) == end);
@@ -505,7 +484,7 @@ static void images_go_on_with_the_same_bits(void **state)
     // One where there are none.
     bay none = make_bay((plumb_world_desc){ 0 });
     size_t none_size;
-    void *none_bytes = save(none.w, &none_size);
+    void *none_bytes = sim_save(none.w, &none_size);
     assert_int_equal(plumb_world_restore(b.w, none_bytes, none_size), PLUMB_OK);
     assert_int_equal(plumb_world_waves(b.w, NULL, 0), 0);
     run(b.w, 20);

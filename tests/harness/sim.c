@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void tell(void *context, plumb_log_level level, const char *message)
 {
@@ -131,6 +132,26 @@ void sim_run(plumb_world *w, int count, double dt)
     for (int i = 0; i < count; ++i) {
         sim_step(w, dt);
     }
+}
+
+void *sim_save(const plumb_world *w, size_t *size)
+{
+    *size = plumb_world_snapshot_size(w);
+    void *image = malloc(*size);
+    need(image != NULL && plumb_world_save(w, image, *size) == PLUMB_OK, "the image");
+    return image;
+}
+
+bool sim_has_pass(const plumb_world *w, const char *name)
+{
+    plumb_pass_info rows[128];
+    const int count = plumb_world_schedule(w, rows, 128);
+    int i = 0;
+    while (i < count && strcmp(rows[i].name, name) != 0) {
+        ++i;
+    }
+    need(i < count, "the name of a pass");
+    return rows[i].scheduled;
 }
 
 double sim_x(const plumb_world *w, plumb_body b)

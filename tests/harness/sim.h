@@ -57,6 +57,11 @@ plumb_body sim_floor(plumb_world *w, plumb_material m);
 void sim_run(plumb_world *w, int count, double dt);
 void sim_step(plumb_world *w, double dt);
 
+/// An image of a world, for free(), and its size.
+void *sim_save(const plumb_world *w, size_t *size);
+/// Whether the next step has the pass of that name, of those that there are.
+bool sim_has_pass(const plumb_world *w, const char *name);
+
 double sim_x(const plumb_world *w, plumb_body b);
 double sim_y(const plumb_world *w, plumb_body b);
 double sim_angle(const plumb_world *w, plumb_body b);

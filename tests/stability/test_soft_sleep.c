@@ -160,15 +160,6 @@ static plumb_softbody_desc look(const place *p)
 }
 
 // Its state; to be given back.
-static void *save(plumb_world *w, size_t *size)
-{
-    *size = plumb_world_snapshot_size(w);
-    void *image = malloc(*size);
-    assert_non_null(image);
-    assert_int_equal(plumb_world_save(w, image, *size), PLUMB_OK);
-    return image;
-}
-
 //---- they sleep, and lie still -------------------------------------------------------------------
 
 // Every kind, with what it holds and carries: asleep in time, in no pass, and not a bit moves.
@@ -425,7 +416,7 @@ static void what_concerns_it_wakes_it(void **state)
         place p = make_place((kind)(k % KINDS), 400 + k, false);
         assert_true(until_asleep(&p, 40) > 0);
         size_t size;
-        void *still = save(p.w, &size);
+        void *still = sim_save(p.w, &size);
         const place asleep = p;
         for (size_t i = 0; i < sizeof wakers / sizeof wakers[0]; ++i) {
             if ((wakers[i].kinds & OF(p.kind)) == 0) {
@@ -614,7 +605,7 @@ static void what_touches_sleeps_together(void **state)
             }
             if (i % 100 == 50) {
                 size_t size;
-                void *now = save(p.w, &size);
+                void *now = sim_save(p.w, &size);
                 assert_int_equal(plumb_world_restore(q.w, now, size), PLUMB_OK);
                 free(now);
                 sim_step(q.w, dt);
