@@ -61,7 +61,7 @@ typedef struct plumb_liquid_desc {
 typedef struct plumb_liquid_phase {
     plumb_real density;   ///< [kg/m^2] a thousandth to a thousand times the first's; 0 means 1000
     plumb_real viscosity; ///< [Pa s] 0..1e9, as of plumb_liquid_desc
-    plumb_real friction;  ///< [-] 0..10, as of plumb_liquid_desc: sand under water, 0.6
+    plumb_real friction;  ///< [-] 0..10, as of plumb_liquid_desc
 } plumb_liquid_phase;
 
 /// A particle: spacing^2 of area. {0} is water at rest.

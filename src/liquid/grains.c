@@ -17,8 +17,8 @@
 
 #include <math.h>
 
-// [cells] that lie on grains at the surface, of which pressures there know nothing: with 0 the top layer of a heap flows off, by
-// 8 cm/s at cells of 10 cm, with a whole one slopes of 0.8 stand at a friction of 0.6.
+// [cells] that lie on grains at the surface, of which pressures there know nothing: with 0 grains run on from the foot of a heap, with
+// 0.5 a layer of five cells on a slope of 0.8 gets 0.38 of its speed in place of 0.55.
 #define SURFACE 0.25
 
 static double friction_of(const pl_liquid *liquid, uint32_t phase)
@@ -27,7 +27,7 @@ static double friction_of(const pl_liquid *liquid, uint32_t phase)
                                : pl_liquid_phases(liquid)[phase - 1].friction);
 }
 
-bool pl_liquid_is_granular(const pl_liquid *liquid)
+static bool is_granular(const pl_liquid *liquid)
 {
     bool any = false;
     for (uint32_t i = 0; i <= liquid->phase_count; ++i) {
@@ -40,7 +40,7 @@ void pl_liquid_find_grains(pl_liquid *liquid)
 {
     pl_liquid_scratch *scratch = liquid->scratch;
     pl_liquid_grains *grains = &scratch->grains;
-    scratch->grid.grains = pl_liquid_is_granular(liquid) ? grains : NULL;
+    scratch->grid.grains = is_granular(liquid) ? grains : NULL;
     grains->particles = scratch->moved.data;
     for (uint32_t i = 0; i <= liquid->phase_count; ++i) {
         grains->friction[i] = friction_of(liquid, i);

@@ -154,9 +154,7 @@ static inline double pl_liquid_bearing(const pl_liquid_grains *grains, uint32_t 
     return grains->least + (pressure > 0 ? pressure : 0);
 }
 
-// Whether the liquid, or a phase of it, is granular.
-bool pl_liquid_is_granular(const pl_liquid *liquid);
-// The grid's `grains`, or none.
+// The grid's `grains`: none if neither the liquid nor a phase of it is granular.
 void pl_liquid_find_grains(pl_liquid *liquid);
 // What they bear in cells of the grid. unit: [Pa] of 1 m/s; fall: [m/s] by gravity in a part. False when out of memory.
 bool pl_liquid_gather_grains(pl_memory *memory, pl_liquid_scratch *scratch, double unit,
@@ -224,6 +222,20 @@ static inline void pl_liquid_faces_of(const pl_liquid_grid *grid, uint32_t cell,
     open[1] = grid->open_u[grid->right[cell]];
     open[2] = grid->open_v[cell];
     open[3] = grid->open_v[grid->up[cell]];
+}
+
+// 0..1 of a cell's surroundings that is not solid: with less it is not asked how full that is.
+#define PL_LIQUID_LEAST_ROOM ((near_real)0.1)
+
+static inline near_real pl_liquid_space(const pl_liquid_grid *grid, uint32_t cell)
+{
+    return 1 - grid->solid[cell];
+}
+
+// How full of liquid that space is.
+static inline near_real pl_liquid_fullness(const pl_liquid_grid *grid, uint32_t cell)
+{
+    return (grid->density[cell] - grid->solid[cell]) / pl_liquid_space(grid, cell);
 }
 
 //---- wet.c ---------------------------------------------------------------------------------------

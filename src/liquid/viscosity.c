@@ -29,15 +29,14 @@
 #define HALF            ((near_real)0.5)
 #define LEAST_MASS      ((near_real)0.25) // less, and light bodies shake
 #define MOSTLY          ((near_real)0.9)  // of a face
-#define LEAST_ROOM      ((near_real)0.1)
 
 //---- what is unknown -----------------------------------------------------------------------------
 
 // 0..1, how much of a cell is liquid.
 static near_real fill_of(const pl_liquid_grid *g, uint32_t c)
 {
-    const near_real room = 1 - g->solid[c];
-    const near_real full = room > LEAST_ROOM ? (g->density[c] - g->solid[c]) / room : 0;
+    const near_real full =
+        pl_liquid_space(g, c) > PL_LIQUID_LEAST_ROOM ? pl_liquid_fullness(g, c) : 0;
     return (full < 1 ? full : 1) * (1 - g->cover[c]);
 }
 

@@ -20,15 +20,17 @@ typedef struct pl_viscous {
     pl_liquid_grid *g;
     const pl_liquid_grains *grains; // or null
     near_real k, elastic;           // elastic: share of grains in that
-    pl_viscous_faces speed;         // the velocities; of faces that are closed those of the solids
-    pl_viscous_faces is_free;       // 1: unknown
-    pl_viscous_faces shut; // how much of a face solids close that it goes with; 0: none does
+    // The velocities, those of solids where these shut faces.
+    pl_viscous_faces speed;
+    // 1: unknown.
+    pl_viscous_faces is_free;
+    // How much of a face solids close that it goes with; 0: none does.
+    pl_viscous_faces shut;
     pl_viscous_faces mass;
-    pl_viscous_faces
-        twice; // 2: the slope to the face below ends at a wall, half a cell away; 0: one is air's
-    pl_viscous_faces left; // what is left
-    pl_viscous_faces way;  // where conjugate gradients go
-    pl_viscous_faces out;  // the matrix times that
+    // 2: the slope to the face below ends at a wall, half a cell away; 0: one of them is air's.
+    pl_viscous_faces twice;
+    // What is left; where conjugate gradients go; the matrix times that.
+    pl_viscous_faces left, way, out;
     pl_viscous_faces diagonal;
     near_real *thick;        // viscosity of a cell over k, without grains
     near_real *weight;       // of a cell, with them

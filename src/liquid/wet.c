@@ -3,11 +3,10 @@
 // Reads: points, openness, covers, densities, rows. Writes: wet. Cost: O(cells).
 #include "liquid/liquid.h"
 
-#define COVERED    ((near_real)0.3)
-#define GAP        ((near_real)0.5) // all that is open of a cell
-#define LEVEL      ((near_real)0.5)
-#define LEAST_GAP  ((near_real)0.25) // [cells] nearer surfaces would make the system stiff
-#define LEAST_ROOM ((near_real)0.1)  // of a cell's surroundings that is not solid
+#define COVERED   ((near_real)0.3)
+#define GAP       ((near_real)0.5) // all that is open of a cell
+#define LEVEL     ((near_real)0.5)
+#define LEAST_GAP ((near_real)0.25) // [cells] nearer surfaces would make the system stiff
 
 static bool has_points(const pl_liquid_grid *g, uint32_t c)
 {
@@ -87,12 +86,11 @@ near_real pl_liquid_gap(const pl_liquid_grid *g, uint32_t a, uint32_t b)
         return 1;
     }
     const uint32_t water = wet_a ? a : b, air = wet_a ? b : a;
-    const near_real room = 1 - g->solid[water], air_room = 1 - g->solid[air];
-    if (room < LEAST_ROOM || air_room < LEAST_ROOM) {
+    if (pl_liquid_space(g, water) < PL_LIQUID_LEAST_ROOM ||
+        pl_liquid_space(g, air) < PL_LIQUID_LEAST_ROOM) {
         return 1;
     }
-    const near_real in = (g->density[water] - g->solid[water]) / room;
-    const near_real out = (g->density[air] - g->solid[air]) / air_room;
+    const near_real in = pl_liquid_fullness(g, water), out = pl_liquid_fullness(g, air);
     const near_real gap = in > out ? (in - LEVEL) / (in - out) : 0;
     return gap > 1 ? 1 : gap > LEAST_GAP ? gap : LEAST_GAP;
 }

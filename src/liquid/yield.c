@@ -6,9 +6,9 @@
 #include <math.h>
 
 #define QUARTER ((near_real)0.25)
-#define SPRING                                                                                     \
-    0.5 // of what resists strain is kept as stress, the rest is a damper: else light bodies shake
-// [cells of liquid] a body as light as this is a stiff spring's end whose forces are a step old: less is kept of what it bears.
+// Of what resists strain, how much is kept as stress; the rest is a damper: else light bodies shake.
+#define SPRING 0.5
+// [cells of liquid] a lighter body is the end of a spring whose force is a step old: less is kept of the stress beside it.
 #define HEAVY 16
 
 //---- stresses ------------------------------------------------------------------------------------

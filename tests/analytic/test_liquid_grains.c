@@ -40,11 +40,6 @@ static void make_sand(plumb_world *w, double spacing, double density, double fri
         PLUMB_OK);
 }
 
-static void fill(plumb_world *w, double x0, double y0, double x1, double y1)
-{
-    assert_int_equal(plumb_liquid_add_box(w, sim_vec(x0, y0), sim_vec(x1, y1), NULL), PLUMB_OK);
-}
-
 //---- a layer on a slope --------------------------------------------------------------------------
 
 // Mean velocity [m/s] of the middle of a layer of 0.5 m after half a second, gravity inclined against the floor by a slope, both
@@ -163,7 +158,7 @@ static void columns_collapse(void **state)
     const double aspects[] = { 1, 2, 3 }, l = 0.5;
     for (int i = 0; i < 3; ++i) {
         plumb_world *w = make_ground(0.0125, FRICTION);
-        fill(w, -l, 0, l, aspects[i] * l);
+        tank_fill(w, -l, 0, l, aspects[i] * l);
         sim_run(w, 240, HZ60);
         const heap h = look(w);
         const double wide = (h.half - l) / l / (1.2 * aspects[i]),
@@ -227,7 +222,7 @@ static double rate_of(double friction, double hole, double from)
     tank_wall(w, -(1 + hole / 2) / 2, -0.1, side / 2, 0.1);
     tank_wall(w, (1 + hole / 2) / 2, -0.1, side / 2, 0.1);
     make_sand(w, 0.025, 1600, friction);
-    fill(w, -1, 0, 1, 3);
+    tank_fill(w, -1, 0, 1, 3);
     int gone = 0;
     for (int i = 0; i < (int)(60 * from) + 30; ++i) {
         sim_step(w, HZ60);
@@ -271,7 +266,7 @@ static double load_of(double friction, double depth)
     sim_joint(
         w, (plumb_joint_desc){ .kind = PLUMB_WELD, .body_b = floor, .anchor = sim_vec(0, -0.3) });
     make_sand(w, 0.0125, 1000, friction);
-    fill(w, -0.25, 0, 0.25, depth);
+    tank_fill(w, -0.25, 0, 0.25, depth);
     sim_run(w, 180, HZ60);
     double sum = 0;
     for (int i = 0; i < 60; ++i) {
@@ -317,7 +312,7 @@ static void bodies_rest_on_it(void **state)
         plumb_world *w = tank_make(4, 3, 0.05);
         plumb_liquid_set(w,
                          &(plumb_liquid_desc){ .density = 1600, .friction = (plumb_real)FRICTION });
-        fill(w, 0, 0, 4, 1.5);
+        tank_fill(w, 0, 0, 4, 1.5);
         const plumb_body b = sim_body(w, PLUMB_DYNAMIC, 2.013, 2.3, 0.2);
         plumb_shape_create(w, b,
                            &(plumb_shape_desc){ .kind = PLUMB_BOX,
