@@ -1,6 +1,6 @@
 // chord.c - where a line meets a convex shape.
 //
-// Reads: corners and a radius. Writes: an interval. Cost: O(corners).
+// Reads: corners and a radius. Writes: intervals. Cost: O(corners), and O(chords).
 #include "geometry/chord.h"
 
 #include <math.h>
@@ -75,4 +75,37 @@ bool pl_chord(const double *x, const double *y, int n, double radius, double at,
     *low = out.low;
     *high = out.high;
     return out.low <= out.high;
+}
+
+// An edge that goes right is below all that is in the shape, one that goes left above it.
+static void meet_lines(double ax, double ay, double bx, double by, const double *at, int count,
+                       double *low, double *high)
+{
+    const double dx = bx - ax, left = dx > 0 ? ax : bx, right = dx > 0 ? bx : ax;
+    int k = 0;
+    while (k < count && at[k] < left) {
+        ++k;
+    }
+    for (; k < count && at[k] <= right && dx != 0; ++k) {
+        const double y = ay + (by - ay) * ((at[k] - ax) / dx);
+        if (dx > 0) {
+            low[k] = y < low[k] ? y : low[k];
+        } else {
+            high[k] = y > high[k] ? y : high[k];
+        }
+    }
+}
+
+void pl_chords(const double *x, const double *y, int n, double radius, const double *at, int count,
+               double *low, double *high)
+{
+    for (int k = 0; k < count; ++k) {
+        const interval none = { INFINITY, -INFINITY };
+        const interval out = radius != 0 ? chord_of_round(x, y, n, radius, at[k]) : none;
+        low[k] = out.low, high[k] = out.high;
+    }
+    for (int i = 0; i < n && radius == 0; ++i) {
+        const int k = i + 1 < n ? i + 1 : 0;
+        meet_lines(x[i], y[i], x[k], y[k], at, count, low, high);
+    }
 }

@@ -8,5 +8,8 @@
 // other way round, for y = at.
 bool pl_chord(const double *x, const double *y, int n, double radius, double at, double *low,
               double *high);
+// The chords of several such lines, in ascending order. Where there is none the low end is above the high one.
+void pl_chords(const double *x, const double *y, int n, double radius, const double *at, int count,
+               double *low, double *high);
 
 #endif

@@ -5,7 +5,7 @@
 // without divergence stays so. Only with surface tension.
 //
 // Reads: points, cells, covers. Writes: velocities of faces. Cost: O(cells + points), one thread.
-#include "liquid/liquid.h"
+#include "liquid/back.h"
 
 #include <string.h>
 
@@ -66,15 +66,15 @@ static void add_points(const pl_liquid_grid *g, const uint32_t *labels, drop *dr
                        double fall_y)
 {
     for (uint32_t k = 0; k < g->point_count; ++k) {
-        pl_liquid_point p = g->points[k];
-        drop *d = &drops[labels[p.cell]];
+        const pl_liquid_point *p = &g->points[k];
+        drop *d = &drops[labels[p->cell]];
         const double mass =
             g->mixture != NULL ? (double)g->mixture->kinds[g->mixture->phases[k]].mass : 1;
-        near_real unused_x, unused_y;
-        pl_liquid_sample(g, &p, &unused_x, &unused_y);
+        pl_liquid_flow flow;
+        pl_liquid_find_flow(g, p, &flow);
         d->mass += mass;
-        d->u += mass * ((double)p.u - (double)g->points[k].u - fall_x);
-        d->v += mass * ((double)p.v - (double)g->points[k].v - fall_y);
+        d->u += mass * ((double)flow.value[0] - (double)p->u - fall_x);
+        d->v += mass * ((double)flow.value[1] - (double)p->v - fall_y);
     }
 }
 

@@ -88,6 +88,7 @@ typedef struct build {
     const plumb_particle *particles;
     const uint8_t *strays; // null: there are none
     pl_liquid_spot *spots;
+    const pl_liquid_home *homes;
     double scale;
 } build;
 
@@ -108,28 +109,19 @@ bool pl_liquid_find_spots(pl_memory *memory, pl_liquid_scratch *scratch,
     if (!pl_buffer_reserve(memory, &scratch->spots, (count + 1) * sizeof(pl_liquid_spot))) {
         return false;
     }
-    build b = { g, particles, NULL, scratch->spots.data, 1 / (double)g->h };
+    build b = { g, particles, NULL, scratch->spots.data, NULL, 1 / (double)g->h };
     pl_tasks_ranges(g->tasks, count, FEWEST, spot_range, &b);
-    return true;
+    return pl_liquid_find_homes(memory, scratch, count);
 }
 
 static void cell_range(void *context, uint32_t first, uint32_t count)
 {
     const build *b = context;
-    int32_t x = INT32_MAX, y = INT32_MAX; // no tile has these
-    uint32_t tile = 0;
     for (uint32_t k = first; k < first + count; ++k) {
         pl_liquid_spot *s = &b->spots[k];
-        if (b->strays != NULL && b->strays[k]) {
-            s->cell = 0;
-            continue;
-        }
-        if (pl_liquid_tile_of(s->i) != x || pl_liquid_tile_of(s->j) != y) {
-            x = pl_liquid_tile_of(s->i);
-            y = pl_liquid_tile_of(s->j);
-            tile = pl_liquid_tile_first(b->g, x, y);
-        }
-        s->cell = tile + (uint32_t)((s->j & 15) * PL_LIQUID_SIDE + (s->i & 15));
+        const uint32_t place = (uint32_t)((s->j & 15) * PL_LIQUID_SIDE + (s->i & 15));
+        const bool strays = b->strays != NULL && b->strays[k];
+        s->cell = strays ? 0 : 1 + b->homes[s->cell].tile * PL_LIQUID_TILE + place;
     }
 }
 
@@ -208,8 +200,10 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
                           const plumb_particle *particles, uint32_t count)
 {
     pl_liquid_grid *g = &scratch->grid;
-    build b = { g, particles, g->strays, scratch->spots.data, 1 / (double)g->h };
-    if (!pl_liquid_find_tiles(memory, scratch, count) || !pl_liquid_make_cells(memory, scratch) ||
+    build b = {
+        g, particles, g->strays, scratch->spots.data, scratch->homes.data, 1 / (double)g->h
+    };
+    if (!pl_liquid_find_tiles(memory, scratch) || !pl_liquid_make_cells(memory, scratch) ||
         (g->mixture != NULL && !pl_liquid_make_mixture(memory, scratch))) {
         return false;
     }
@@ -227,7 +221,8 @@ void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
         &scratch->blends,  &scratch->mixed,      &scratch->rooms,       &scratch->room_cells,
         &scratch->order,   &scratch->supports,   &scratch->joined,      &scratch->nodes,
         &scratch->rings,   &scratch->softbodies, &scratch->soft_links,  &scratch->sides,
-        &scratch->touches, &scratch->tension,    &scratch->rims,        &scratch->granular
+        &scratch->touches, &scratch->tension,    &scratch->rims,        &scratch->granular,
+        &scratch->homes
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);

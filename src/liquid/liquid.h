@@ -40,8 +40,10 @@ static inline int32_t pl_liquid_tile_of(int32_t cell)
     return cell >> 4;
 }
 
-// Tiles round the spots of all particles but strays, sorted. False when out of memory.
-bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count);
+// The home of each spot but strays'. False when out of memory.
+bool pl_liquid_find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count);
+// Tiles round all that is lively, sorted. False when out of memory.
+bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch);
 bool pl_liquid_sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch);
 // The first cell of the tile (x, y); 0: there is no such tile.
 uint32_t pl_liquid_tile_first(const pl_liquid_grid *grid, int32_t x, int32_t y);
@@ -61,7 +63,7 @@ void pl_liquid_fly(const pl_liquid_grid *grid, plumb_vec2 gravity, double dt,
 
 //---- grid.c --------------------------------------------------------------------------------------
 
-// In which cell each particle is; the grid's `h` must be set. False when out of memory.
+// In which cell each particle is, and its home; the grid's `h` must be set. False when out of memory.
 bool pl_liquid_find_spots(pl_memory *memory, pl_liquid_scratch *scratch,
                           const plumb_particle *particles, uint32_t count);
 // Of particles in these: tiles round them, points sorted by cell, and by their order within one. False when out of memory.
@@ -106,9 +108,6 @@ void pl_liquid_extrapolate(pl_liquid_grid *grid, near_real *u, near_real *v, int
 void pl_liquid_accelerate(pl_liquid_grid *grid, near_real du, near_real dv);
 // What flows along faces that solids close goes with them.
 void pl_liquid_bound(pl_liquid_grid *grid);
-// Gives a point the velocity and slopes of the faces round it; the displacement there, between new_u and new_v.
-void pl_liquid_sample(const pl_liquid_grid *grid, pl_liquid_point *point, near_real *dx,
-                      near_real *dy);
 
 //---- tension.c -----------------------------------------------------------------------------------
 
@@ -348,8 +347,7 @@ pl_liquid_place pl_liquid_drift(const pl_liquid_grid *grid, uint32_t point, doub
 
 //---- move.c --------------------------------------------------------------------------------------
 
-// Points get the velocities of faces, move by them times `way` [cells a m/s] and by the displacements, out of solids,
-// and are written to the particles.
+// Particles get the velocities of faces, move by them times `way` [cells a m/s] and by the displacements, out of solids.
 void pl_liquid_move(pl_liquid_grid *grid, double way, plumb_particle *particles);
 
 // Keeps a place out of all solids, on its way from another; what is left of a way goes on along them. The normal of the

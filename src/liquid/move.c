@@ -4,11 +4,9 @@
 // A step is cut where it crosses an edge of a thin piece; what ends inside of a piece is moved to its nearest face.
 //
 // Reads: points, displacements, solids at tiles. Writes: particles. Cost: O(points x solids near their tile).
-#include "liquid/liquid.h"
-#include "core/quad.h"
+#include "liquid/back.h"
 
 #include <math.h>
-#include <string.h>
 
 #define LEAST_WIDTH 1.0  // [cells] of what is not thin
 #define MOST_WAY    2.0  // cells that the solids listed at a tile are good for
@@ -16,25 +14,32 @@
 
 typedef pl_liquid_place place;
 
-static place place_of(const pl_liquid_grid *g, const pl_liquid_point *p)
+// [cells] the corner of a tile; where a point of the tile lies.
+static place corner_of(const pl_liquid_tile *tile)
 {
-    const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
-    const uint32_t k = (p->cell - 1) % PL_LIQUID_TILE;
-    return (place){
-        (double)(tile->x * PL_LIQUID_SIDE + (int32_t)(k % PL_LIQUID_SIDE)) + (double)p->fx,
-        (double)(tile->y * PL_LIQUID_SIDE + (int32_t)(k / PL_LIQUID_SIDE)) + (double)p->fy
-    };
+    return (place){ (double)(tile->x * PL_LIQUID_SIDE), (double)(tile->y * PL_LIQUID_SIDE) };
 }
 
-static place end_of(const pl_liquid_grid *g, pl_liquid_point *p, place from, double way)
+static place place_of(place corner, const pl_liquid_point *p)
 {
-    near_real dx, dy;
-    pl_liquid_sample(g, p, &dx, &dy);
-    const near_real half = (near_real)(way / 2);
-    const near_real x = p->u + half * (p->u * p->slope[0] + p->v * p->slope[1]);
-    const near_real y = p->v + half * (p->u * p->slope[2] + p->v * p->slope[3]);
-    return (place){ from.x + pl_liquid_held(way * (double)x + (double)dx, PL_LIQUID_MOST_CELL),
-                    from.y + pl_liquid_held(way * (double)y + (double)dy, PL_LIQUID_MOST_CELL) };
+    const int32_t k = (int32_t)((p->cell - 1) % PL_LIQUID_TILE);
+    return (place){ corner.x + (double)(k % PL_LIQUID_SIDE) + (double)p->fx,
+                    corner.y + (double)(k / PL_LIQUID_SIDE) + (double)p->fy };
+}
+
+// Which way it goes in this part of a step, as its velocity is half way along it.
+static inline place way_of(const pl_liquid_flow *flow, double way)
+{
+    const near_real half = (near_real)(way / 2), u = flow->value[0], v = flow->value[1];
+    const pl_near_quad middle = flow->value + half * (u * flow->along_x + v * flow->along_y);
+    return (place){ way * (double)middle[0] + (double)flow->value[2],
+                    way * (double)middle[1] + (double)flow->value[3] };
+}
+
+static place end_of(place from, place way)
+{
+    return (place){ from.x + pl_liquid_held(way.x, PL_LIQUID_MOST_CELL),
+                    from.y + pl_liquid_held(way.y, PL_LIQUID_MOST_CELL) };
 }
 
 //---- out of solids -------------------------------------------------------------------------------
@@ -181,7 +186,8 @@ static double room_at(const pl_liquid_solid *s, bool fast)
 
 #define MARGIN 2 // cells around a tile where ways from it end
 #define ACROSS (PL_LIQUID_SIDE + 2 * MARGIN)
-#define LISTED 64 // solids at a tile that bits are kept of
+#define SLOW   0.499 // [cells] a way; beyond it a particle is fast, and seen to by itself
+#define LISTED 64    // solids at a tile that bits are kept of
 
 // Which of a tile's solids slow ways that end in a column and in a row of cells meet: a bit each.
 typedef struct fence {
@@ -218,6 +224,26 @@ static uint64_t near_of(const fence *f, place at, bool fast)
                 : f->columns[across_of(at.x, f->tile->x)] & f->rows[across_of(at.y, f->tile->y)];
 }
 
+// Whether a way is slow and leads to none of a tile's solids.
+static inline bool is_free(const fence *f, place corner, place way, place to)
+{
+    if (!(fabs(way.x) < SLOW && fabs(way.y) < SLOW)) { // or no number
+        return false;
+    }
+    const int i = (int)(to.x - corner.x + MARGIN), j = (int)(to.y - corner.y + MARGIN);
+    return (f->columns[i] & f->rows[j]) == 0 && f->tile->solid_count <= LISTED;
+}
+
+// The last of a tile's solids before k that may be near.
+static uint32_t near_below(uint64_t near, uint32_t k)
+{
+    if (k > LISTED) {
+        return k - 1;
+    }
+    near &= k < LISTED ? (UINT64_C(1) << k) - 1 : UINT64_MAX;
+    return near != 0 ? 63 - (uint32_t)__builtin_clzll(near) : PL_LIQUID_NONE;
+}
+
 // `normal` of what stands and has stopped one that is fast; else none.
 static place keep_out(const pl_liquid_grid *g, const fence *f, place from, place to, place *normal)
 {
@@ -231,11 +257,8 @@ static place keep_out(const pl_liquid_grid *g, const fence *f, place from, place
         return pl_liquid_slide_all(g, from, to, &unused);
     }
     uint64_t near = near_of(f, to, fast);
-    uint32_t k = near == 0 && tile->solid_count <= LISTED ? 0 : tile->solid_count;
-    while (k-- > 0) { // as above
-        if (k < LISTED && (near >> k & 1) == 0) {
-            continue;
-        }
+    for (uint32_t k = near_below(near, tile->solid_count); k != PL_LIQUID_NONE; // as above
+         k = near_below(near, k)) {
         const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
         const double room = room_at(s, fast);
         if (to.x >= s->low_x - room && to.x <= s->high_x + room && to.y >= s->low_y - room &&
@@ -258,23 +281,6 @@ static place keep_out(const pl_liquid_grid *g, const fence *f, place from, place
 
 typedef pl_near_quad quad;
 
-// Each of four within bounds; what is no number is 0.
-static inline void put_within(plumb_real out[4], const near_real in[4], near_real scale,
-                              near_real most)
-{
-    quad q;
-    memcpy(&q, in, sizeof q);
-    q *= scale;
-    const quad top = (quad){ most, most, most, most }, low = -top;
-    const pl_near_mask above = q > top, below = q < low, is_number = q == q;
-    pl_near_mask bits = (above & (pl_near_mask)top) | (~above & (pl_near_mask)q);
-    bits = (below & (pl_near_mask)low) | (~below & bits);
-    q = (quad)(bits & is_number);
-    for (int k = 0; k < 4; ++k) {
-        out[k] = (plumb_real)q[k];
-    }
-}
-
 static plumb_real within(near_real value, near_real most)
 {
     return (plumb_real)(value > most ? most : value < -most ? -most : value == value ? value : 0);
@@ -286,37 +292,63 @@ typedef struct motion {
     plumb_particle *particles;
 } motion;
 
+// What is out of bounds is put within, what is no number is 0.
+static inline void store(plumb_particle *out, const pl_liquid_flow *f, place to, near_real h)
+{
+    const near_real fastest = (near_real)PL_LIQUID_SPEED, steepest = (near_real)PL_LIQUID_SLOPE;
+    const quad by_cell = { f->along_x[0], f->along_y[0], f->along_x[1], f->along_y[1] };
+    const quad v = f->value, slopes = by_cell * (1 / h);
+    const pl_near_mask in =
+        (v <= fastest) & (v >= -fastest) & (slopes <= steepest) & (slopes >= -steepest);
+    const bool all = (in[0] & in[1] & in[2] & in[3]) != 0;
+    for (int k = 0; k < 4; ++k) {
+        out->gradient[k] = all ? (plumb_real)slopes[k] : within(slopes[k], steepest);
+    }
+    out->velocity.x = all ? (plumb_real)v[0] : within(v[0], fastest);
+    out->velocity.y = all ? (plumb_real)v[1] : within(v[1], fastest);
+    out->position = (plumb_vec2){ (plumb_real)(to.x * (double)h), (plumb_real)(to.y * (double)h) };
+}
+
+// As far as solids and other phases let it.
+static place go(const motion *m, const fence *f, uint32_t k, place from, place way,
+                pl_liquid_flow *flow)
+{
+    place end = end_of(from, way), normal;
+    if (m->g->mixture != NULL) {
+        const place drift = pl_liquid_drift(m->g, k, m->way);
+        end.x += drift.x, end.y += drift.y;
+    }
+    const place to = keep_out(m->g, f, from, end, &normal);
+    // Kept, a film under a crate made more of it in every step: 70 m/s into the ground.
+    const double into = normal.x * (double)flow->value[0] + normal.y * (double)flow->value[1];
+    if (into < 0) {
+        flow->value[0] -= (near_real)(into * normal.x);
+        flow->value[1] -= (near_real)(into * normal.y);
+    }
+    return to;
+}
+
 static void move_range(void *context, uint32_t first, uint32_t count)
 {
     const motion *m = context;
     const pl_liquid_grid *g = m->g;
-    const double h = (double)g->h;
-    const near_real scale = 1 / g->h, fastest = (near_real)PL_LIQUID_SPEED;
-    const near_real steepest = (near_real)PL_LIQUID_SLOPE;
     fence f = { .tile = NULL };
+    place corner = { 0, 0 };
     for (uint32_t k = first; k < first + count; ++k) {
-        pl_liquid_point *p = &g->points[k];
+        const pl_liquid_point *p = &g->points[k];
         const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
         if (tile != f.tile) {
             see_solids(&f, g, tile);
+            corner = corner_of(tile);
         }
-        const place from = place_of(g, p);
-        place end = end_of(g, p, from, m->way);
-        if (g->mixture != NULL) {
-            const place drift = pl_liquid_drift(g, k, m->way);
-            end.x += drift.x, end.y += drift.y;
+        pl_liquid_flow flow;
+        pl_liquid_find_flow(g, p, &flow);
+        const place from = place_of(corner, p), way = way_of(&flow, m->way);
+        place to = { from.x + way.x, from.y + way.y };
+        if (!is_free(&f, corner, way, to) || g->mixture != NULL) {
+            to = go(m, &f, k, from, way, &flow);
         }
-        place normal;
-        const place to = keep_out(g, &f, from, end, &normal);
-        // Kept, a film under a crate made more of it in every step: 70 m/s into the ground.
-        const double into = normal.x * (double)p->u + normal.y * (double)p->v;
-        if (into < 0) {
-            p->u -= (near_real)(into * normal.x), p->v -= (near_real)(into * normal.y);
-        }
-        plumb_particle *out = &m->particles[p->index];
-        out->position = (plumb_vec2){ (plumb_real)(to.x * h), (plumb_real)(to.y * h) };
-        out->velocity = (plumb_vec2){ within(p->u, fastest), within(p->v, fastest) };
-        put_within(out->gradient, p->slope, scale, steepest);
+        store(&m->particles[p->index], &flow, to, g->h);
     }
 }
 

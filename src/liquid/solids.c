@@ -109,15 +109,27 @@ static int end_at(double high)
     return high >= SIDE ? SIDE : high > 0 ? (int)ceil(high) : 0;
 }
 
+// Chords of the 16 lines of a tile that begin at x = from.
+typedef struct lines {
+    double low[SIDE], high[SIDE];
+} lines;
+
+static void find_lines(lines *out, const view *v, double from)
+{
+    double at[SIDE];
+    for (int i = 0; i < SIDE; ++i) {
+        at[i] = from + i;
+    }
+    pl_chords(v->x, v->y, v->solid->count, v->radius, at, SIDE, out->low, out->high);
+}
+
 // Lines x = i of a tile, from its left side on.
 static bool close_lines(pl_memory *memory, pl_liquid_scratch *scratch, const view *v)
 {
-    const pl_liquid_solid *s = v->solid;
-    double low, high;
+    lines all;
+    find_lines(&all, v, 0);
     for (int i = 0; i < SIDE; ++i) {
-        if (!pl_chord(v->x, v->y, s->count, v->radius, i, &low, &high)) {
-            continue;
-        }
+        const double low = all.low[i], high = all.high[i];
         for (int j = first_at(low); j < SIDE && j < high; ++j) {
             const double from = low > j ? low : j, to = high < j + 1 ? high : j + 1;
             if (from < to && !close_face(memory, scratch, v, cell_of(v, i, j), i, from, to)) {
@@ -132,12 +144,10 @@ static bool close_lines(pl_memory *memory, pl_liquid_scratch *scratch, const vie
 static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const view *v,
                           const view *other)
 {
-    const pl_liquid_solid *s = v->solid;
-    double low, high;
+    lines all;
+    find_lines(&all, other, 0.5);
     for (int j = 0; j < SIDE; ++j) {
-        if (!pl_chord(other->x, other->y, s->count, v->radius, j + 0.5, &low, &high)) {
-            continue;
-        }
+        const double low = all.low[j], high = all.high[j];
         for (int i = first_at(low + 0.5); i < SIDE && i - 0.5 <= high; ++i) {
             if (i + 0.5 >= low && !close_face(memory, scratch, v, cell_of(v, i, j), i, j, j + 1)) {
                 return false;
@@ -147,58 +157,73 @@ static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const v
     return true;
 }
 
-// Gauss's rule of three chords over as much of a column of cells as the piece is wide.
-typedef struct column {
-    double at[3], low[3], high[3], width;
-    double bottom, top; // of all chords
-} column;
+// Gauss's rule of three chords over as much of each of a tile's columns of cells as the piece is wide.
+#define CHORDS 3
 
-static column column_at(const view *v, int i)
+typedef struct columns {
+    double at[CHORDS * SIDE], low[CHORDS * SIDE], high[CHORDS * SIDE], width[SIDE];
+    int first, end; // of the tile's
+} columns;
+
+static void find_columns(columns *c, const view *v)
 {
-    const double from = v->left > i ? v->left : i, to = v->right < i + 1 ? v->right : i + 1;
-    const double middle = (from + to) / 2, off = (to - from) * 0.3872983346207417;
-    column c = { .at = { middle - off, middle, middle + off },
-                 .width = to - from,
-                 .bottom = INFINITY,
-                 .top = -INFINITY };
-    for (int k = 0; k < 3 && c.width > 0; ++k) {
-        pl_chord(v->x, v->y, v->solid->count, v->radius, c.at[k], &c.low[k], &c.high[k]);
-        c.bottom = c.low[k] < c.bottom ? c.low[k] : c.bottom;
-        c.top = c.high[k] > c.top ? c.high[k] : c.top;
+    c->first = first_at(v->left);
+    c->end = end_at(v->right);
+    for (int i = c->first; i < c->end; ++i) {
+        const double from = v->left > i ? v->left : i, to = v->right < i + 1 ? v->right : i + 1;
+        const double middle = (from + to) / 2, off = (to - from) * 0.3872983346207417;
+        double *at = &c->at[CHORDS * i];
+        at[0] = middle - off, at[1] = middle, at[2] = middle + off;
+        c->width[i] = to - from;
     }
-    return c;
+    const int k = CHORDS * c->first, count = c->end > c->first ? CHORDS * c->end - k : 0;
+    pl_chords(v->x, v->y, v->solid->count, v->radius, c->at + k, count, c->low + k, c->high + k);
+}
+
+static double bottom_of(const columns *c, int i)
+{
+    const double *low = &c->low[CHORDS * i], side = low[0] < low[2] ? low[0] : low[2];
+    return low[1] < side ? low[1] : side;
+}
+
+static double top_of(const columns *c, int i)
+{
+    const double *high = &c->high[CHORDS * i], side = high[0] > high[2] ? high[0] : high[2];
+    return high[1] > side ? high[1] : side;
 }
 
 // The area of a column between two heights; the mean of where in its width that is.
-static double area_in(const column *c, double low, double high, double *mean)
+static double area_in(const columns *c, int i, double low, double high, double *mean)
 {
-    static const double weights[3] = { 5.0 / 18, 8.0 / 18, 5.0 / 18 };
+    static const double weights[CHORDS] = { 5.0 / 18, 8.0 / 18, 5.0 / 18 };
     double area = 0, moment = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double from = c->low[k] > low ? c->low[k] : low;
-        const double to = c->high[k] < high ? c->high[k] : high;
-        const double part = from < to ? weights[k] * c->width * (to - from) : 0;
+    for (int k = 0; k < CHORDS; ++k) {
+        const int chord = CHORDS * i + k;
+        const double from = c->low[chord] > low ? c->low[chord] : low;
+        const double to = c->high[chord] < high ? c->high[chord] : high;
+        const double part = from < to ? weights[k] * c->width[i] * (to - from) : 0;
         area += part;
-        moment += part * c->at[k];
+        moment += part * c->at[chord];
     }
     *mean = area > 0 ? moment / area : 0;
     return area;
 }
 
-static void cover_cells(pl_liquid_grid *g, const view *v, const column *c, int i)
+static void cover_cells(pl_liquid_grid *g, const view *v, const columns *c, int i)
 {
     double mean;
-    for (int j = first_at(c->bottom), end = end_at(c->top); j < end; ++j) {
+    for (int j = first_at(bottom_of(c, i)), end = end_at(top_of(c, i)); j < end; ++j) {
         near_real *cover = &g->cover[cell_of(v, i, j)];
-        *cover += (near_real)area_in(c, j, j + 1, &mean);
+        *cover += (near_real)area_in(c, i, j, j + 1, &mean);
         *cover = *cover > 1 ? 1 : *cover;
     }
 }
 
 static void cover_columns(pl_liquid_grid *g, const view *v)
 {
-    for (int i = first_at(v->left), end = end_at(v->right); i < end; ++i) {
-        const column c = column_at(v, i);
+    columns c;
+    find_columns(&c, v);
+    for (int i = c.first; i < c.end; ++i) {
         cover_cells(g, v, &c, i);
     }
 }
@@ -209,15 +234,19 @@ static void cover_columns(pl_liquid_grid *g, const view *v)
 static bool close_areas(pl_memory *memory, pl_liquid_scratch *scratch, const view *v,
                         const view *film)
 {
-    for (int i = first_at(v->left), stop = end_at(v->right); i < stop; ++i) {
-        const column whole = column_at(v, i), inner = column_at(film, i);
+    columns whole, inner;
+    find_columns(&whole, v);
+    find_columns(&inner, film);
+    for (int i = whole.first; i < whole.end; ++i) {
         if (!v->upright) {
             cover_cells(&scratch->grid, v, &whole, i);
         }
-        for (int j = first_at(whole.bottom - 0.5), end = end_at(whole.top + 0.5); j < end; ++j) {
+        const bool is_film = i >= inner.first && i < inner.end;
+        const int end = end_at(top_of(&whole, i) + 0.5);
+        for (int j = first_at(bottom_of(&whole, i) - 0.5); j < end; ++j) {
             double mean, other;
-            const double part = area_in(&whole, j - 0.5, j + 0.5, &mean);
-            const double shut = inner.width > 0 ? area_in(&inner, j - 0.5, j + 0.5, &other) : 0;
+            const double part = area_in(&whole, i, j - 0.5, j + 0.5, &mean);
+            const double shut = is_film ? area_in(&inner, i, j - 0.5, j + 0.5, &other) : 0;
             if (part > 0 && !close_part(memory, scratch, v, cell_of(v, i, j), !v->upright, part,
                                         shut, v->upright ? j : mean, v->upright ? mean : j)) {
                 return false;

@@ -14,33 +14,17 @@
 #define MANY   24   // particles that make a tile lively
 #define FEWEST 2048 // particles that are worth a thread
 
-static bool find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
+static const pl_liquid_home *homes_of(const pl_liquid_scratch *scratch)
 {
-    pl_liquid_spot *spots = scratch->spots.data;
-    int32_t x = INT32_MAX, y = INT32_MAX; // no tile has these
-    uint32_t home = 0;
-    for (uint32_t k = 0; k < count; ++k) {
-        const int32_t to_x = pl_liquid_tile_of(spots[k].i), to_y = pl_liquid_tile_of(spots[k].j);
-        if (to_x != x || to_y != y) {
-            x = to_x;
-            y = to_y;
-            if (!pl_liquid_add_tile(memory, scratch, x, y)) {
-                return false;
-            }
-            home = pl_liquid_tile_at(scratch, x, y);
-        }
-        ++scratch->grid.tiles[home].points;
-        spots[k].cell = home;
-    }
-    return true;
+    return scratch->homes.data;
 }
 
-static bool many_near(const pl_liquid_scratch *scratch, const pl_liquid_tile *tile)
+static bool many_near(const pl_liquid_scratch *scratch, const pl_liquid_home *home)
 {
     for (int32_t j = -1; j <= 1; ++j) {
         for (int32_t i = -1; i <= 1; ++i) {
-            const uint32_t t = pl_liquid_tile_at(scratch, tile->x + i, tile->y + j);
-            if (t != PL_LIQUID_NONE && scratch->grid.tiles[t].points >= MANY) {
+            const uint32_t t = pl_liquid_tile_at(scratch, home->x + i, home->y + j);
+            if (t != PL_LIQUID_NONE && homes_of(scratch)[t].points >= MANY) {
                 return true;
             }
         }
@@ -49,9 +33,9 @@ static bool many_near(const pl_liquid_scratch *scratch, const pl_liquid_tile *ti
 }
 
 // A body, or a soft body, may be pushed, or push.
-static bool body_near(const pl_liquid_grid *g, const pl_liquid_tile *tile)
+static bool body_near(const pl_liquid_grid *g, const pl_liquid_home *home)
 {
-    const double side = PL_LIQUID_SIDE, x = tile->x * side, y = tile->y * side;
+    const double side = PL_LIQUID_SIDE, x = home->x * side, y = home->y * side;
     for (uint32_t i = 0; i < g->solid_count; ++i) {
         const pl_liquid_solid *s = &g->solids[i];
         if ((s->body != PL_LIQUID_NONE || s->soft) && s->low_x < x + 2 * side &&
@@ -66,19 +50,25 @@ bool pl_liquid_find_strays(pl_memory *memory, pl_liquid_scratch *scratch,
                            const plumb_particle *particles, uint32_t count)
 {
     pl_liquid_grid *g = &scratch->grid;
+    g->strays = NULL;
     if (!pl_buffer_reserve(memory, &scratch->strays, count + 1) ||
-        !pl_liquid_find_spots(memory, scratch, particles, count) ||
-        !pl_liquid_clear_tiles(memory, scratch) || !find_homes(memory, scratch, count)) {
+        !pl_liquid_find_spots(memory, scratch, particles, count)) {
         return false;
     }
-    for (uint32_t t = 0; t < g->tile_count; ++t) {
-        pl_liquid_tile *tile = &g->tiles[t];
-        tile->lively = many_near(scratch, tile) || body_near(g, tile);
+    pl_liquid_home *homes = scratch->homes.data;
+    bool any = false;
+    for (uint32_t i = 0; i < scratch->home_count; ++i) {
+        homes[i].lively = many_near(scratch, &homes[i]) || body_near(g, &homes[i]);
+        any |= !homes[i].lively;
     }
     const pl_liquid_spot *spots = scratch->spots.data;
     g->strays = scratch->strays.data;
+    if (!any) {
+        memset(g->strays, 0, count);
+        return true;
+    }
     for (uint32_t k = 0; k < count; ++k) {
-        g->strays[k] = !g->tiles[spots[k].cell].lively;
+        g->strays[k] = !homes[spots[k].cell].lively;
     }
     return true;
 }

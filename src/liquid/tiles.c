@@ -3,13 +3,13 @@
 // A world has no end, so there is no box of cells: tiles of 16 x 16 lie where particles are, and as far around as
 // the kernels look. They are sorted by their places, so neither memory nor the order of insertion decides anything.
 //
-// Reads: spots, strays. Writes: tiles and their table. Cost: O(particles + tiles).
+// Reads: spots, strays. Writes: homes, tiles and their table. Cost: O(particles + tiles).
 #include "liquid/liquid.h"
 
 #include <string.h>
 
 #define LEAST_SLOTS 64
-#define RECENT      64 // squares of tiles that are remembered, and how many of these lie in a line
+#define RECENT      64 // homes that are remembered, and how many of these lie in a line
 #define RECENT_LINE 16
 
 static uint64_t key_of(int32_t x, int32_t y)
@@ -70,33 +70,6 @@ bool pl_liquid_add_tile(pl_memory *memory, pl_liquid_scratch *scratch, int32_t x
     return 2 * g->tile_count <= scratch->slots || resize(memory, scratch, 2 * scratch->slots);
 }
 
-static bool cover_spots(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
-{
-    const uint8_t *strays = scratch->grid.strays;
-    const pl_liquid_spot *spots = scratch->spots.data;
-    uint64_t last[RECENT] = { 0 };
-    for (uint32_t k = 0; k < count; ++k) {
-        const int32_t i = spots[k].i, j = spots[k].j;
-        const int32_t x = pl_liquid_tile_of(i - PL_LIQUID_REACH),
-                      y = pl_liquid_tile_of(j - PL_LIQUID_REACH);
-        const int32_t right = pl_liquid_tile_of(i + PL_LIQUID_REACH),
-                      top = pl_liquid_tile_of(j + PL_LIQUID_REACH);
-        const uint64_t seen = key_of(x, y) * 4 + (uint64_t)(2 * (right - x) + (top - y)) + 1;
-        uint64_t *recent = &last[(x + RECENT_LINE * y) & (RECENT - 1)];
-        if (seen == *recent || (strays != NULL && strays[k])) {
-            continue;
-        }
-        *recent = seen;
-        if (!pl_liquid_add_tile(memory, scratch, x, y) ||
-            !pl_liquid_add_tile(memory, scratch, right, y) ||
-            !pl_liquid_add_tile(memory, scratch, x, top) ||
-            !pl_liquid_add_tile(memory, scratch, right, top)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 bool pl_liquid_clear_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     scratch->grid.tile_count = 0;
@@ -136,15 +109,105 @@ bool pl_liquid_sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
     return true;
 }
 
-bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
-{
-    return pl_liquid_clear_tiles(memory, scratch) && cover_spots(memory, scratch, count) &&
-           pl_liquid_sort_tiles(memory, scratch);
-}
-
 uint32_t pl_liquid_tile_first(const pl_liquid_grid *g, int32_t x, int32_t y)
 {
     const pl_liquid_scratch view = { .hash = { g->hash, 0 }, .slots = g->slots };
     const entry *slot = slot_of(&view, key_of(x, y));
     return slot->taken != 0 ? 1 + slot->tile * PL_LIQUID_TILE : 0;
+}
+
+//---- round particles -----------------------------------------------------------------------------
+
+// Bits of the tiles that the surroundings of a cell reach into.
+static uint32_t around_of(int32_t i, int32_t j)
+{
+    const int32_t x = i & (PL_LIQUID_SIDE - 1), y = j & (PL_LIQUID_SIDE - 1);
+    const int32_t near = PL_LIQUID_REACH, far = PL_LIQUID_SIDE - PL_LIQUID_REACH;
+    const uint32_t columns = (x < near) | 2U | (uint32_t)(x >= far) << 2;
+    const uint32_t lines = (y < near) | 8U | (uint32_t)(y >= far) << 6;
+    return columns * lines;
+}
+
+static bool add_home(pl_memory *memory, pl_liquid_scratch *scratch, int32_t x, int32_t y)
+{
+    if (!pl_liquid_add_tile(memory, scratch, x, y)) {
+        return false;
+    }
+    const uint32_t count = scratch->grid.tile_count;
+    if (count > scratch->home_count) {
+        if (!pl_buffer_reserve(memory, &scratch->homes, count * sizeof(pl_liquid_home))) {
+            return false;
+        }
+        pl_liquid_home *homes = scratch->homes.data;
+        homes[scratch->home_count++] = (pl_liquid_home){ .x = x, .y = y, .lively = true };
+    }
+    return true;
+}
+
+bool pl_liquid_find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
+{
+    const uint8_t *strays = scratch->grid.strays;
+    pl_liquid_spot *spots = scratch->spots.data;
+    struct {
+        uint64_t key;
+        uint32_t home;
+    } recent[RECENT];
+    if (!pl_liquid_clear_tiles(memory, scratch)) {
+        return false;
+    }
+    scratch->home_count = 0;
+    for (uint32_t i = 0; i < RECENT; ++i) {
+        recent[i].key = UINT64_MAX; // no tile has it
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+        if (strays != NULL && strays[k]) {
+            continue;
+        }
+        const int32_t x = pl_liquid_tile_of(spots[k].i), y = pl_liquid_tile_of(spots[k].j);
+        const uint64_t key = key_of(x, y);
+        const uint32_t slot = (uint32_t)(x + RECENT_LINE * y) & (RECENT - 1);
+        if (recent[slot].key != key) {
+            if (!add_home(memory, scratch, x, y)) {
+                return false;
+            }
+            recent[slot].key = key;
+            recent[slot].home = pl_liquid_tile_at(scratch, x, y);
+        }
+        pl_liquid_home *home = (pl_liquid_home *)scratch->homes.data + recent[slot].home;
+        ++home->points;
+        home->around |= around_of(spots[k].i, spots[k].j);
+        spots[k].cell = recent[slot].home;
+    }
+    return true;
+}
+
+static bool add_around(pl_memory *memory, pl_liquid_scratch *scratch, const pl_liquid_home *home)
+{
+    for (int32_t i = 0; i < 9; ++i) {
+        if ((home->around >> i & 1) != 0 &&
+            !pl_liquid_add_tile(memory, scratch, home->x + i % 3 - 1, home->y + i / 3 - 1)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    pl_liquid_home *homes = scratch->homes.data;
+    if (!pl_liquid_clear_tiles(memory, scratch)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < scratch->home_count; ++i) {
+        if (homes[i].lively && !add_around(memory, scratch, &homes[i])) {
+            return false;
+        }
+    }
+    if (!pl_liquid_sort_tiles(memory, scratch)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < scratch->home_count; ++i) {
+        homes[i].tile = pl_liquid_tile_at(scratch, homes[i].x, homes[i].y);
+    }
+    return true;
 }

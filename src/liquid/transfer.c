@@ -1,4 +1,4 @@
-// transfer.c - velocities from particles to faces and back: affine particle in cell (Jiang et al. 2015).
+// transfer.c - velocities from particles to faces: affine particle in cell (Jiang et al. 2015); the way back is back.h.
 //
 // A particle carries its velocity and how that changes around it, so angular momentum survives the way to the grid
 // and back. Weights are bilinear. The sorted points of a cell are summed up once, for the faces and centres that they
@@ -6,7 +6,7 @@
 // thread may take any cell. Where there are several phases, weights are masses, so that momentum survives, and a blend
 // beside the block has the areas (phases.c).
 //
-// Reads, writes: faces, densities, points. Cost: O(cells + points).
+// Reads: points. Writes: faces, densities. Cost: O(cells + points).
 #include "liquid/liquid.h"
 #include "core/quad.h"
 
@@ -248,8 +248,8 @@ void pl_liquid_to_grid(pl_liquid_grid *g)
 
 //---- where nothing is known ----------------------------------------------------------------------
 
-// The mean of the known faces beside it. What becomes known in this sweep is fresh: order decides nothing.
-static bool spread(const pl_liquid_grid *g, near_real *value, const uint8_t *known, uint32_t c)
+// The mean of the known faces beside it, of which there are some. What becomes known in this sweep is fresh: order decides nothing.
+static void spread(const pl_liquid_grid *g, near_real *value, const uint8_t *known, uint32_t c)
 {
     const uint32_t near[4] = { g->left[c], g->right[c], g->down[c], g->up[c] };
     near_real total = 0;
@@ -260,41 +260,50 @@ static bool spread(const pl_liquid_grid *g, near_real *value, const uint8_t *kno
             ++count;
         }
     }
-    if (count > 0) {
-        value[c] = total / (near_real)count;
-    }
-    return count > 0;
+    value[c] = total / (near_real)count;
 }
 
-// 16 of them at once.
-typedef struct marks {
-    uint64_t a, b;
-} marks;
+// A line of them at once.
+typedef uint8_t marks __attribute__((vector_size(PL_LIQUID_SIDE)));
 
-static marks marks_of(const uint8_t *known, uint32_t c)
+static inline bool any_of(const marks *m)
 {
-    marks m = { 0, 0 };
-    if (c != 0) {
-        memcpy(&m, known + c, sizeof m);
-    }
-    return m;
+    uint64_t halves[2];
+    memcpy(halves, m, sizeof halves);
+    return (halves[0] | halves[1]) != 0;
 }
 
-#define ALL UINT64_C(0x0101010101010101)
+// Which of a line are not known, and beside one that is. False: none.
+static inline bool find_fresh(const pl_liquid_grid *g, const uint8_t *known, uint8_t *fresh,
+                              uint32_t c)
+{
+    const uint32_t down = g->down[c], up = g->up[c];
+    marks here, before, behind, low = { 0 }, high = { 0 };
+    memcpy(&here, known + c, sizeof here);
+    memcpy(&before, known + c - 1, sizeof here);
+    memcpy(&behind, known + c + 1, sizeof here);
+    before[0] = known[g->left[c]];
+    behind[PL_LIQUID_SIDE - 1] = known[g->right[c + PL_LIQUID_SIDE - 1]];
+    if (down != 0) {
+        memcpy(&low, known + down, sizeof low);
+    }
+    if (up != 0) {
+        memcpy(&high, known + up, sizeof high);
+    }
+    const marks all = (before | behind | low | high) & (here ^ 1);
+    memcpy(fresh + c, &all, sizeof all);
+    return any_of(&all);
+}
 
 static void spread_line(const pl_liquid_grid *g, near_real *value, const uint8_t *known,
                         uint8_t *fresh, uint32_t c)
 {
-    const marks here = marks_of(known, c);
-    const marks low = marks_of(known, g->down[c]), high = marks_of(known, g->up[c]);
-    const bool beside = known[g->left[c]] != 0 || known[g->right[c + PL_LIQUID_SIDE - 1]] != 0;
-    const bool near = (here.a | here.b | low.a | low.b | high.a | high.b) != 0;
-    memset(fresh + c, 0, PL_LIQUID_SIDE);
-    if ((here.a & here.b) == ALL || !(near || beside)) {
-        return;
-    }
-    for (uint32_t i = c; i < c + PL_LIQUID_SIDE; ++i) {
-        fresh[i] = known[i] == 0 && spread(g, value, known, i);
+    if (find_fresh(g, known, fresh, c)) {
+        for (uint32_t i = c; i < c + PL_LIQUID_SIDE; ++i) {
+            if (fresh[i] != 0) {
+                spread(g, value, known, i);
+            }
+        }
     }
 }
 
@@ -355,52 +364,4 @@ void pl_liquid_accelerate(pl_liquid_grid *g, near_real du, near_real dv)
 {
     kick k = { g, du, dv };
     pl_tasks_ranges(g->tasks, g->cell_count - 1, 16384, kick_range, &k);
-}
-
-//---- back ----------------------------------------------------------------------------------------
-
-// Four faces round a point, and where between them it lies.
-typedef struct corners {
-    uint32_t a, b, c, d; // at the lower left, right; above them
-    near_real x, y;
-} corners;
-
-typedef struct square {
-    near_real value, x, y; // with its slopes
-} square;
-
-static corners corners_of(const pl_liquid_grid *g, uint32_t a, near_real x, near_real y)
-{
-    const uint32_t up = g->up[a];
-    return (corners){ a, g->right[a], up, g->right[up], x, y };
-}
-
-static corners corners_u(const pl_liquid_grid *g, const pl_liquid_point *p)
-{
-    return p->fy < HALF ? corners_of(g, g->down[p->cell], p->fx, p->fy + HALF)
-                        : corners_of(g, p->cell, p->fx, p->fy - HALF);
-}
-
-static corners corners_v(const pl_liquid_grid *g, const pl_liquid_point *p)
-{
-    return p->fx < HALF ? corners_of(g, g->left[p->cell], p->fx + HALF, p->fy)
-                        : corners_of(g, p->cell, p->fx - HALF, p->fy);
-}
-
-static square between(const near_real *f, const corners *at)
-{
-    const near_real f00 = f[at->a], f10 = f[at->b], f01 = f[at->c], f11 = f[at->d];
-    const near_real x = at->x, y = at->y;
-    const near_real low = f00 + x * (f10 - f00), high = f01 + x * (f11 - f01);
-    return (square){ low + y * (high - low), (1 - y) * (f10 - f00) + y * (f11 - f01), high - low };
-}
-
-void pl_liquid_sample(const pl_liquid_grid *g, pl_liquid_point *p, near_real *dx, near_real *dy)
-{
-    const corners at_u = corners_u(g, p), at_v = corners_v(g, p);
-    const square u = between(g->u, &at_u), v = between(g->v, &at_v);
-    p->u = u.value, p->slope[0] = u.x, p->slope[1] = u.y;
-    p->v = v.value, p->slope[2] = v.x, p->slope[3] = v.y;
-    *dx = between(g->new_u, &at_u).value;
-    *dy = between(g->new_v, &at_v).value;
 }

@@ -13,8 +13,9 @@
 #include "harness/near.h"
 
 #include "geometry/chord.h"
-#include "liquid/liquid.h"
+#include "liquid/back.h"
 #include "harness/random.h"
+#include "harness/sim.h"
 
 #define TOLERANCE (sizeof(near_real) == 4 ? 2e-5 : 1e-10)
 
@@ -134,6 +135,40 @@ static void chords_hold_what_is_inside(void **state)
     }
 }
 
+// Many lines at once have the chords that each has: of boxes whose sides may lie on lines, of other polygons, of round ones.
+static void chords_of_many_lines_are_those_of_each(void **state)
+{
+    (void)state;
+    uint32_t r = 11;
+    double met = 0, missed = 0;
+    for (int k = 0; k < 300; ++k) {
+        const int n = 1 + k % 8;
+        const double turn = k % 2 == 0 ? SIM_PI / 4 : sim_uniform(&r, 0, 7);
+        const double size = k % 2 == 0 ? sqrt(8) : sim_uniform(&r, 0.1, 6);
+        const double radius = n < 3 || k % 3 == 0 ? sim_uniform(&r, 0.1, 2) : 0;
+        double x[8], y[8], at[16], low[16], high[16];
+        for (int i = 0; i < n; ++i) {
+            x[i] = 5 + size * cos(turn + 2 * SIM_PI * i / n);
+            y[i] = size * sin(turn + 2 * SIM_PI * i / n);
+        }
+        for (int i = 0; i < 16; ++i) {
+            at[i] = k % 4 < 2 ? i : (i + sim_uniform(&r, 0, 1)) * 0.7;
+        }
+        pl_chords(x, y, n, radius, at, 16, low, high);
+        for (int i = 0; i < 16; ++i) {
+            double from, to;
+            const bool meets = pl_chord(x, y, n, radius, at[i], &from, &to);
+            assert_int_equal(low[i] <= high[i], meets);
+            if (meets) {
+                assert_near(low[i], from, 1e-12);
+                assert_near(high[i], to, 1e-12);
+            }
+            met += meets, missed += !meets;
+        }
+    }
+    assert_true(met > 500 && missed > 500);
+}
+
 //---- tiles ---------------------------------------------------------------------------------------
 
 static void tiles_lie_where_particles_are(void **state)
@@ -160,6 +195,41 @@ static void tiles_lie_where_particles_are(void **state)
     close_bench(&b);
 }
 
+// What kernels reach from any particle is there, and no tile is there without one that reaches it.
+static void tiles_are_those_that_particles_reach(void **state)
+{
+    (void)state;
+    uint32_t r = 5;
+    for (int round = 0; round < 30; ++round) {
+        bench b;
+        open_bench(&b);
+        const int n = 1 + round;
+        for (int i = 0; i < n; ++i) {
+            add_lattice(&b, 1, 1, sim_uniform(&r, -40, 40), sim_uniform(&r, -40, 40));
+        }
+        build(&b);
+        const pl_liquid_grid *g = &b.scratch.grid;
+        bool reached[16][16] = { { false } };
+        for (int i = 0; i < n; ++i) {
+            near_real unused;
+            const int32_t x = pl_liquid_floor((double)b.particles[i].position.x, &unused);
+            const int32_t y = pl_liquid_floor((double)b.particles[i].position.y, &unused);
+            for (int32_t dx = -PL_LIQUID_REACH; dx <= PL_LIQUID_REACH; ++dx) {
+                for (int32_t dy = -PL_LIQUID_REACH; dy <= PL_LIQUID_REACH; ++dy) {
+                    assert_true(pl_liquid_cell_at(g, x + dx, y + dy) != 0);
+                    reached[pl_liquid_tile_of(x + dx) + 8][pl_liquid_tile_of(y + dy) + 8] = true;
+                }
+            }
+        }
+        uint32_t count = 0;
+        for (int i = 0; i < 256; ++i) {
+            count += reached[i / 16][i % 16];
+        }
+        assert_int_equal(g->tile_count, count);
+        close_bench(&b);
+    }
+}
+
 //---- transfer ------------------------------------------------------------------------------------
 
 // A linear field goes to faces and back unchanged.
@@ -180,22 +250,25 @@ static void linear_fields_survive_the_way(void **state)
     pl_liquid_grid *g = &b.scratch.grid;
     put_solids(&b, NULL, 0);
     to_grid(&b);
+    for (uint32_t c = 0; c < g->cell_count; ++c) { // displacements are any other field
+        g->new_u[c] = 2 * g->u[c];
+        g->new_v[c] = 3 * g->v[c];
+    }
     int inner = 0;
     for (uint32_t k = 0; k < g->point_count; ++k) {
-        pl_liquid_point *q = &g->points[k];
-        const plumb_particle *p = &b.particles[q->index];
-        near_real dx, dy;
-        memset(g->new_u, 0, g->cell_count * sizeof *g->new_u);
-        memset(g->new_v, 0, g->cell_count * sizeof *g->new_v);
-        q->u = q->v = 0;
-        memset(q->slope, 0, sizeof q->slope);
-        pl_liquid_sample(g, q, &dx, &dy);
+        const plumb_particle *p = &b.particles[g->points[k].index];
+        pl_liquid_flow flow;
+        pl_liquid_find_flow(g, &g->points[k], &flow);
         if (p->position.x > 1 && p->position.x < 11 && p->position.y > 1 && p->position.y < 11) {
             ++inner;
-            assert_near((double)q->u, (double)p->velocity.x, 100 * TOLERANCE);
-            assert_near((double)q->v, (double)p->velocity.y, 100 * TOLERANCE);
-            assert_near((double)q->slope[0], 2, 100 * TOLERANCE);
-            assert_near((double)q->slope[1], -3, 100 * TOLERANCE);
+            const double u = (double)p->velocity.x, v = (double)p->velocity.y;
+            const double value[] = { u, v, 2 * u, 3 * v };
+            const double along_x[] = { 2, -1, 4, -3 }, along_y[] = { -3, 0.5, -6, 1.5 };
+            for (int i = 0; i < 4; ++i) {
+                assert_near((double)flow.value[i], value[i], 200 * TOLERANCE);
+                assert_near((double)flow.along_x[i], along_x[i], 200 * TOLERANCE);
+                assert_near((double)flow.along_y[i], along_y[i], 200 * TOLERANCE);
+            }
         }
     }
     assert_int_equal(inner, 400);
@@ -337,7 +410,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(chords_are_exact),
         cmocka_unit_test(chords_hold_what_is_inside),
+        cmocka_unit_test(chords_of_many_lines_are_those_of_each),
         cmocka_unit_test(tiles_lie_where_particles_are),
+        cmocka_unit_test(tiles_are_those_that_particles_reach),
         cmocka_unit_test(linear_fields_survive_the_way),
         cmocka_unit_test(faces_close_as_far_as_they_are_covered),
         cmocka_unit_test(steep_solids_close_nothing_below_them),

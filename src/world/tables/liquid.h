@@ -60,7 +60,7 @@ typedef struct pl_liquid_point {
 typedef struct pl_liquid_spot {
     int32_t i, j;         // cell
     near_real fx, fy;     // 0..1 in it
-    uint32_t cell, place; // place: among the sorted points
+    uint32_t cell, place; // place: among the sorted points. Until tiles are sorted, cell is the home
 } pl_liquid_spot;
 
 typedef struct pl_liquid_block pl_liquid_block; // transfer.c
@@ -104,9 +104,16 @@ typedef struct pl_liquid_tile {
     int32_t x, y;         // in tiles
     uint32_t first_solid; // in the list of solids at tiles
     uint32_t solid_count;
-    uint32_t points; // of a table of homes (strays.c)
-    bool lively;
 } pl_liquid_tile;
+
+// A tile with particles. Of a table of homes pl_liquid_tile is the place alone.
+typedef struct pl_liquid_home {
+    int32_t x, y;    // in tiles
+    uint32_t points; // particles in it
+    uint32_t around; // bits of the tiles that their surroundings reach into, from the lower left one to the upper right one
+    uint32_t tile;   // of the grid
+    bool lively;     // its particles are no strays
+} pl_liquid_home;
 
 // A body that the liquid pushes: its velocity is an unknown.
 typedef struct pl_liquid_body {
@@ -297,7 +304,8 @@ typedef struct pl_liquid_scratch {
     pl_liquid_mixture mixture;
     pl_liquid_grains grains;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, rims, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches, granular;
+    uint32_t home_count;
+    pl_buffer cells, tiles, hash, keys, points, spots, homes, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, rims, solids, tile_solids, phases, blends, mixed, rooms, room_cells, order, supports, joined, tension, nodes, rings, softbodies, soft_links, sides, touches, granular;
 } pl_liquid_scratch;
 
 // Particles by the bins that they lie in, for questions (sample.c): made when the first one is asked after they moved.
