@@ -350,10 +350,11 @@ pl_liquid_place pl_liquid_drift(const pl_liquid_grid *grid, uint32_t point, doub
 // Particles get the velocities of faces, move by them times `way` [cells a m/s] and by the displacements, out of solids.
 void pl_liquid_move(pl_liquid_grid *grid, double way, plumb_particle *particles);
 
-// Keeps a place out of all solids, on its way from another; what is left of a way goes on along them. The normal of the
-// last that is met; 0: none is.
+// Keeps a place out of all solids, on its way from another; what is left of a way goes on along them. The normals of the
+// last that is met, and of the last of those that stand; 0: none is.
 pl_liquid_place pl_liquid_slide_all(const pl_liquid_grid *grid, pl_liquid_place from,
-                                    pl_liquid_place to, pl_liquid_place *normal);
+                                    pl_liquid_place to, pl_liquid_place *normal,
+                                    pl_liquid_place *standing);
 
 //---- bodies.c ------------------------------------------------------------------------------------
 

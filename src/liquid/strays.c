@@ -97,8 +97,8 @@ static void fly(const flight *f, plumb_particle *p)
                            from.y + f->dt * (vy + f->dt / 2 * ay) / h };
     vx = held(vx + f->dt * ax);
     vy = held(vy + f->dt * ay);
-    pl_liquid_place n;
-    to = pl_liquid_slide_all(g, from, to, &n);
+    pl_liquid_place n, unused;
+    to = pl_liquid_slide_all(g, from, to, &n, &unused);
     const double into = vx * n.x + vy * n.y, along = vy * n.x - vx * n.y;
     if (into < 0) {
         const double held = pl_liquid_held(along, -into * pl_liquid_friction(g, p->phase));
