@@ -15,6 +15,8 @@
 #include <string.h>
 
 #define MARGIN 6.0 // cells round the particles in which solids are looked for
+// [cells] across: less of a body, drawn in by films, would not always have a line of the grid within.
+#define THIN 1.5
 
 typedef pl_liquid_region region;
 
@@ -77,7 +79,8 @@ static bool add_solid(plumb_world *world, pl_liquid_scratch *scratch, uint32_t p
     s->body = body;
     s->count = shape.count;
     s->radius = (double)shape.radius * scale;
-    s->thin = width_of(&shape, scale) < 1;
+    s->width = width_of(&shape, scale);
+    s->thin = s->width < (body == PL_LIQUID_NONE ? 1 : THIN);
     s->exits = UINT32_MAX;
     return true;
 }

@@ -137,9 +137,14 @@ static place slide(const pl_liquid_solid *s, place from, place to, place *normal
     return cut(s, true, s->count > 2 ? out_of(s, from, &unused) : from, to, normal);
 }
 
+static bool is_firm(const pl_liquid_solid *s)
+{
+    return s->count > 2 && !s->soft;
+}
+
 static bool stands(const pl_liquid_grid *g, const pl_liquid_solid *s)
 {
-    return s->count > 2 && !s->soft && (s->body == PL_LIQUID_NONE || !g->bodies[s->body].moves);
+    return is_firm(s) && (s->body == PL_LIQUID_NONE || !g->bodies[s->body].moves);
 }
 
 static double larger(double a, double b)
@@ -178,7 +183,7 @@ static bool is_within(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
     bool within = false;
     for (uint32_t k = 0; k < tile->solid_count && !within; ++k) {
         const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
-        within = stands(g, s) && at.x >= s->low_x && at.x <= s->high_x && at.y >= s->low_y &&
+        within = is_firm(s) && at.x >= s->low_x && at.x <= s->high_x && at.y >= s->low_y &&
                  at.y <= s->high_y && gap_to(s, at).distance < 0;
     }
     return within;
@@ -273,12 +278,12 @@ static place keep_out(const pl_liquid_grid *g, const fence *f, place from, place
             to = s->thin ? cut(s, false, from, to, &met) : fast ? slide(s, from, to, &met) : to;
             const place out = out_of(s, to, &met);
             *normal = fast && stands(g, s) && (met.x != 0 || met.y != 0) ? met : *normal;
-            held |= stands(g, s) && (out.x != to.x || out.y != to.y);
+            held |= is_firm(s) && (out.x != to.x || out.y != to.y);
             to = out;
             near = near_of(f, to, fast);
         }
     }
-    // Where two that stand lie flush, each would push it into the other, and it into the seam.
+    // Where two lie flush, each would push it into the other, and it into the seam.
     const bool enters_wall = held && is_within(g, tile, to) && !is_within(g, tile, from);
     return enters_wall ? from : to;
 }

@@ -14,9 +14,12 @@
 #include "geometry/chord.h"
 #include "geometry/in_box.h"
 
+#include <limits.h>
 #include <math.h>
 
-#define SIDE PL_LIQUID_SIDE
+#define SIDE   PL_LIQUID_SIDE
+#define NARROW 3 // [cells] across
+
 //---- faces ---------------------------------------------------------------------------------------
 
 // A solid in a tile: coordinates from the tile's corner, with x and y exchanged for lines y = at.
@@ -228,27 +231,57 @@ static void cover_columns(pl_liquid_grid *g, const view *v)
     }
 }
 
+// Of a narrow piece: the line of a column of which it takes most. There it shuts all of a face that it lies on, or water would go
+// through walls; elsewhere not, or what it covers would be cut off from the pressures on both sides.
+static int middle_of(const columns *inner, int i)
+{
+    double most = 0, unused;
+    int middle = INT_MIN;
+    for (int j = (int)floor(bottom_of(inner, i) - 0.5); j <= top_of(inner, i) + 0.5; ++j) {
+        const double area = area_in(inner, i, j - 0.5, j + 0.5, &unused);
+        middle = area > most ? j : middle;
+        most = area > most ? area : most;
+    }
+    return middle;
+}
+
+// How much of the face from i to i + 1 on line j of a tile lies in a piece.
+static double chord_at(const lines *across, int i, int j)
+{
+    const double from = across->low[j] > i ? across->low[j] : i;
+    const double to = across->high[j] < i + 1 ? across->high[j] : i + 1;
+    return from < to ? to - from : 0;
+}
+
 // Bodies that yield take of a face what they have of the area between the centres of its two cells: so the pressures of water at
 // rest add up to the weight of what they displace, wherever they lie in their cells (Batty et al. 2007). They shut it as if they were
-// thinner by a film. Columns of cells tell how much of these is solid, too.
+// thinner by a film. Columns of cells tell how much of these is solid, too. `across`: the film as lines of the other kind see it.
 static bool close_areas(pl_memory *memory, pl_liquid_scratch *scratch, const view *v,
-                        const view *film)
+                        const view *film, const view *across)
 {
+    const bool narrow = v->solid->width < NARROW;
     columns whole, inner;
+    lines chords;
     find_columns(&whole, v);
     find_columns(&inner, film);
+    if (narrow) {
+        find_lines(&chords, across, 0);
+    }
     for (int i = whole.first; i < whole.end; ++i) {
         if (!v->upright) {
             cover_cells(&scratch->grid, v, &whole, i);
         }
         const bool is_film = i >= inner.first && i < inner.end;
+        const int middle = narrow && is_film ? middle_of(&inner, i) : INT_MIN;
         const int end = end_at(top_of(&whole, i) + 0.5);
         for (int j = first_at(bottom_of(&whole, i) - 0.5); j < end; ++j) {
-            double mean, other;
+            double mean, unused;
             const double part = area_in(&whole, i, j - 0.5, j + 0.5, &mean);
-            const double shut = is_film ? area_in(&inner, i, j - 0.5, j + 0.5, &other) : 0;
+            const double area = is_film ? area_in(&inner, i, j - 0.5, j + 0.5, &unused) : 0;
+            const double chord = j == middle ? chord_at(&chords, i, j) : 0;
             if (part > 0 && !close_part(memory, scratch, v, cell_of(v, i, j), !v->upright, part,
-                                        shut, v->upright ? j : mean, v->upright ? mean : j)) {
+                                        chord > area ? chord : area, v->upright ? j : mean,
+                                        v->upright ? mean : j)) {
                 return false;
             }
         }
@@ -318,8 +351,8 @@ static bool close_tile(pl_memory *memory, pl_liquid_scratch *scratch, const pl_l
     if (pl_liquid_yields(g, s)) {
         const view film = view_of(g, tile, t, s, false, true);
         const view film_up = view_of(g, tile, t, s, true, true);
-        return close_areas(memory, scratch, &v, &film) &&
-               close_areas(memory, scratch, &up, &film_up);
+        return close_areas(memory, scratch, &v, &film, &film_up) &&
+               close_areas(memory, scratch, &up, &film_up, &film);
     }
     cover_columns(g, &v);
     if (s->thin &&

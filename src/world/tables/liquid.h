@@ -214,7 +214,8 @@ typedef struct pl_liquid_room_cell {
 typedef struct pl_liquid_solid {
     uint32_t piece, body; // body: of the list above; PL_NONE: static. piece: PL_NONE, it stays where it is
     int count;            // corners
-    bool thin;            // less than a cell across
+    bool thin;            // so narrow that nothing says where in a cell it lies
+    double width;         // [cells] across, at the narrowest
     bool soft;            // a triangle of a soft body
     uint32_t nodes[3];    // of that, at its corners
     uint32_t exits;       // bits of sides over which particles in it leave
