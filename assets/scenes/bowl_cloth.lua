@@ -32,7 +32,8 @@ local function drape(x, y, width, color)
                   bending = 0.01, drag = 2.5, radius = 0.035, friction = friction, color = color }
 end
 local cloths = { drape(middle_of_bowl, 3, 4.6, "#c04563"), drape(0, 3.2, 3.6, "#2f8f6b"), drape(2.9, 3, 3.8, "#7a55a8") }
-for i = 1, 3 do body { name = "apple" .. i, circle { 0.2 }, at = {middle_of_bowl - 0.8 + 0.4 * i, 1.2}, density = 20, material = glaze, label = " ", color = i == 2 and "#8fae3c" or "#c8452f" } end
+for i = 1, 3 do body { name = "apple" .. i, circle { 0.2 }, at = {middle_of_bowl - 0.8 + 0.4 * i, 1.2}, density = 20, material = glaze, label = " ",
+                         color = i == 2 and "#8fae3c" or "#c8452f" } end
 
 for i, what in ipairs { "bowl", "ball", "table" } do
     local cloth = cloths[i]
