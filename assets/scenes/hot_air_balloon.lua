@@ -9,7 +9,7 @@ air { size = {12, 12}, at = {0, 6}, cell = param("cell", 0.2, 0.1, 0.3), bottom 
       fading = 0.05, cooling = 0.01, color = "#e8884a" }
 body { name = "ground", type = "static", box { 14, 0.4, at = {0, -0.2} }, color = "#7f9a5b" }
 
--- The envelope: most of a ring, open for half a radian to each side of its bottom.
+-- The envelope: most of a ring, open for a third of a radian to each side of its bottom.
 local r, thick, points = 1.7, 0.3, {}
 for i = 0, 40 do
     local a = -math.pi / 2 + 0.33 + (2 * math.pi - 0.66) * i / 40

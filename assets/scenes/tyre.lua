@@ -70,7 +70,7 @@ local function carried(t)
 end
 local weight = g * (load + 2 * 6 + 2 * 4)
 
--- The damping takes the first bounces off; under way there is none.
+-- Damping ends the first bounces; under way there is none.
 at(3, function()
     for _, drive in ipairs { soft_drive[1], soft_drive[2], rigid_drive[1], rigid_drive[2] } do drive:set_motor_speed(-speed / R) end
     for _, frame in ipairs { soft, rigid } do frame:set_damping(0) end
