@@ -67,7 +67,8 @@ typedef struct plumb_softbody_triangle {
     plumb_vec2 ab, ac;  ///< [m] sides at rest; {0}: as the nodes lie
 } plumb_softbody_triangle;
 
-/// A node that is held, by a body or by the world. Its mass does not count then: it is a point of what holds it.
+/// A node that is held, by a body or by the world. Its mass does not count then: it is a point of what
+/// holds it, which touches in its place.
 typedef struct plumb_softbody_pin {
     uint32_t node;
     plumb_body body;  ///< null: the world
