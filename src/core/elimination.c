@@ -1,5 +1,6 @@
 // elimination.c - order of least degree, by the quotient graph.
 #include "core/elimination.h"
+#include "core/dissection.h"
 
 #include <string.h>
 
@@ -28,6 +29,7 @@ bool pl_elimination_open(pl_memory *memory, pl_elimination *e, uint32_t vertices
     e->used = (uint8_t *)at;
     e->count = vertices;
     e->pair_count = 0;
+    e->whole = NONE;
     return true;
 }
 
@@ -35,6 +37,7 @@ void pl_elimination_free(pl_memory *memory, pl_elimination *e)
 {
     pl_buffer_free(memory, &e->words);
     pl_buffer_free(memory, &e->entries);
+    pl_buffer_free(memory, &e->cuts);
 }
 
 //---- neighbours ----------------------------------------------------------------------------------
@@ -231,8 +234,10 @@ static void shorten(pl_elimination *e, uint32_t v, uint32_t place)
     near[kept++] = last;
     e->elements[v] = elements + 1;
     e->length[v] = kept;
-    unlist(e, v);
-    enlist(e, v, degree_of(e, v));
+    if (e->degree[v] != NONE) {
+        unlist(e, v);
+        enlist(e, v, degree_of(e, v));
+    }
 }
 
 static bool eliminate(pl_memory *memory, pl_elimination *e, uint32_t v, uint32_t place)
@@ -260,21 +265,31 @@ static void give_up(pl_elimination *e, const uint32_t *queue, uint32_t count, ui
     }
 }
 
-// Takes the vertices of `queue` in the order of least degree, to the places from the component's start on.
+static uint32_t take_least(pl_elimination *e)
+{
+    uint32_t degree = 0;
+    while (e->list[degree] == NONE) {
+        ++degree;
+    }
+    const uint32_t v = e->list[degree];
+    unlist(e, v);
+    return v;
+}
+
+// Takes the first vertices of `queue` in the order of least degree, the others in their own, to the places from the component's start on.
 static bool eliminate_all(pl_memory *memory, pl_elimination *e, const uint32_t *queue,
-                          uint32_t count, uint32_t most)
+                          uint32_t count, uint32_t by_degree, uint32_t most)
 {
     const uint32_t from = e->entry_count, start = e->start[e->component_count];
     for (uint32_t i = count; i-- > 0;) {
-        enlist(e, queue[i], e->length[queue[i]]);
+        if (i < by_degree) {
+            enlist(e, queue[i], e->length[queue[i]]);
+        } else {
+            e->degree[queue[i]] = NONE;
+        }
     }
     for (uint32_t i = 0; i < count; ++i) {
-        uint32_t degree = 0;
-        while (e->list[degree] == NONE) {
-            ++degree;
-        }
-        const uint32_t v = e->list[degree];
-        unlist(e, v);
+        const uint32_t v = i < by_degree ? take_least(e) : queue[i];
         if (!eliminate(memory, e, v, start + i)) {
             return false;
         }
@@ -298,7 +313,15 @@ bool pl_elimination_run(pl_memory *memory, pl_elimination *e, uint32_t most)
         }
         uint32_t *queue = e->order + at; // told when all is known
         const uint32_t count = flood(e, v, queue);
-        if (!eliminate_all(memory, e, queue, count, most)) {
+        uint32_t by_degree = count;
+        if (count > e->whole) {
+            const size_t bytes = pl_dissection_words(e->count) * sizeof(uint32_t);
+            if (!pl_buffer_reserve(memory, &e->cuts, bytes)) {
+                return false;
+            }
+            by_degree = pl_dissect(e, queue, count, e->cuts.data);
+        }
+        if (!eliminate_all(memory, e, queue, count, by_degree, most)) {
             return false;
         }
         at += count;

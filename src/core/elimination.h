@@ -3,16 +3,19 @@
 // Vertices are unknowns, or blocks of them; pairs are those that have to do with one another. The order is that of least
 // degree, by the quotient graph: a vertex that is gone leaves an element, the list of those behind it that it made neighbours (George
 // and Liu 1989). Chains and trees fill in nothing, and who has many neighbours comes late. Components come one after another,
-// and the order of one does not depend on the others.
+// and the order of one does not depend on the others. Of what is large and flat that order is a poor one: cut in parts first (`whole`), a
+// cloth of 1,000 takes two thirds of the products, of 10,000 a half.
 #ifndef PL_ELIMINATION_H
 #define PL_ELIMINATION_H
 
 #include "core/memory.h"
 
 typedef struct pl_elimination {
-    pl_buffer words, entries;
+    pl_buffer words, entries, cuts;
     // Given.
     uint32_t count, pair_count;
+    uint32_t
+        whole; // components of more vertices are cut first (core/dissection.h); pl_elimination_open: none
     uint32_t *pairs; // two vertices each; the same pair may come twice
     // Told of each vertex.
     uint32_t *rank;      // its place in the order
