@@ -256,14 +256,18 @@ static uint32_t block_of(const pl_elimination *e, const uint32_t *place, uint32_
                                                : place[c] + e->rank[unknown] - e->start[c];
 }
 
-// Unknowns become blocks.
-static void rename_unknowns(pl_soft_step *s, const uint32_t *place, uint32_t unknowns)
+// Unknowns become blocks. *same: they are those of the plan before.
+static void rename_unknowns(pl_soft_step *s, const uint32_t *place, uint32_t unknowns, bool *same)
 {
     const pl_elimination *e = &s->elimination;
     uint8_t *size = s->shapes.data, *of_unknown = size + unknowns;
+    uint32_t *blocks = pl_soft_kept_blocks(s);
     memcpy(of_unknown, size, unknowns);
     for (uint32_t i = 0; i < unknowns; ++i) {
         const uint32_t block = block_of(e, place, i);
+        const uint32_t told = block == PL_NONE ? PL_NONE : 4 * block + of_unknown[i];
+        *same = *same && blocks[i] == told;
+        blocks[i] = told;
         if (block != PL_NONE) {
             size[block] = of_unknown[i];
         }
@@ -277,6 +281,11 @@ static void rename_unknowns(pl_soft_step *s, const uint32_t *place, uint32_t unk
     for (uint32_t i = 0; i < s->member_count; ++i) {
         pl_soft_members(s)[i].gas = block_of(e, place, pl_soft_members(s)[i].gas);
     }
+}
+
+static void sort_pairs(pl_soft_step *s, const uint32_t *place)
+{
+    const pl_elimination *e = &s->elimination;
     pl_keyed *keys = s->keys.data;
     for (uint32_t i = 0; i < e->pair_count; ++i) {
         const uint32_t a = block_of(e, place, e->pairs[2 * i]);
@@ -314,7 +323,8 @@ bool pl_softbodies_plan(plumb_world *world)
         return false;
     }
     pair_all(all);
-    if (!pl_elimination_run(&world->memory, &s->elimination, UINT32_MAX)) {
+    bool same;
+    if (!pl_soft_order(&world->memory, s, most_pairs, &same)) {
         return false;
     }
     const uint32_t parts = s->elimination.component_count + s->member_count;
@@ -325,7 +335,12 @@ bool pl_softbodies_plan(plumb_world *world)
     sort_bodies(s, leaders, group);
     weigh_groups(all);
     const uint32_t blocks = place_components(s, leaders, group, place);
-    rename_unknowns(s, place, unknowns);
+    rename_unknowns(s, place, unknowns, &same);
+    s->matrix.size = s->shapes.data;
+    if (same) {
+        return true;
+    }
+    sort_pairs(s, place);
     return pl_soft_structure(&world->memory, s, blocks, s->elimination.pair_count,
                              world->desc.simd_width);
 }

@@ -68,6 +68,14 @@ bool pl_softbodies_couple(const plumb_world *world, uint8_t *called);
 // Behind the graph: slots, groups, the structure of the system. False when out of memory.
 bool pl_softbodies_plan(plumb_world *world);
 
+//---- order.c -------------------------------------------------------------------------------------
+
+// Places of unknowns, as `elimination` has their pairs; most_pairs: as it was opened. *same: pairs are those of the plan before, and
+// places as well. False when out of memory.
+bool pl_soft_order(pl_memory *memory, pl_soft_step *s, uint32_t most_pairs, bool *same);
+// Of each unknown: 4 times its block, and its size; PL_NONE. Behind pl_soft_order; what stands there is of the plan before, if that is kept.
+uint32_t *pl_soft_kept_blocks(const pl_soft_step *s);
+
 //---- foresee.c -----------------------------------------------------------------------------------
 
 // What soft bodies do in a step if nothing pushes them but what there is by now, and bodies go on as they do: points are
@@ -94,19 +102,27 @@ double pl_soft_add_pushes(const pl_soft_step *s, const pl_soft_group *g, double 
 
 void pl_soft_newton(plumb_world *world, double h, int passes); // [s]; at most so many a round
 
-//---- matrix.c, squares.simd.c --------------------------------------------------------------------
+//---- matrix.c ------------------------------------------------------------------------------------
 
-pl_soft_kernel pl_soft_squares_w4, pl_soft_squares_w8, pl_soft_squares_w16;
-
-// The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted); sizes stand in step->shapes. `width`: the world's
-// simd_width. False when out of memory.
+// The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted), which are in postorder of their elimination tree; sizes
+// stand in step->shapes. `width`: the world's simd_width. False when out of memory.
 bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs,
                        int width);
+// Blocks of row k of L, in an order in which each comes before those that it changes: stack[top..blocks). Returns top.
+uint32_t pl_soft_reach(const pl_soft_matrix *m, uint32_t k);
 // What follows is about blocks [first, end): those of a group, or all.
 void pl_soft_clear(pl_soft_matrix *m, uint32_t first, uint32_t end);
 void pl_soft_clear_right(pl_soft_matrix *m, uint32_t first, uint32_t end); // its right side alone
 // Place of an entry, row > column; both are neighbours.
 double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column);
+
+//---- fronts.c, fronts.simd.c ---------------------------------------------------------------------
+
+const pl_soft_kernels *pl_soft_kernels_w4(void), *pl_soft_kernels_w8(void),
+    *pl_soft_kernels_w16(void);
+
+// How many fronts there are, of which blocks; then how large they are and where all of it lies. False when out of memory.
+bool pl_soft_make_fronts(pl_memory *memory, pl_soft_step *step);
 // Factors the matrix; solves for `right`, into itself.
 void pl_soft_factor(pl_soft_matrix *m, uint32_t first, uint32_t end);
 void pl_soft_solve(const pl_soft_matrix *m, uint32_t first, uint32_t end);

@@ -37,10 +37,10 @@ void pl_softbodies_free(pl_memory *memory, pl_softbodies *s)
     }
     if (s->step != NULL) {
         pl_soft_step *t = s->step;
-        pl_buffer *scratch[] = { &t->points,   &t->bodies,  &t->obstacles, &t->near_,
-                                 &t->contacts, &t->keys,    &t->index,     &t->numbers,
-                                 &t->shapes,   &t->rows,    &t->pulls,     &t->winds,
-                                 &t->pushes,   &t->members, &t->groups,    &t->grouped };
+        pl_buffer *scratch[] = { &t->points,  &t->bodies, &t->obstacles, &t->near_,   &t->contacts,
+                                 &t->keys,    &t->index,  &t->numbers,   &t->shapes,  &t->rows,
+                                 &t->pulls,   &t->winds,  &t->pushes,    &t->members, &t->groups,
+                                 &t->grouped, &t->fronts, &t->kept };
         for (size_t i = 0; i < sizeof scratch / sizeof scratch[0]; ++i) {
             pl_buffer copy = *scratch[i];
             pl_buffer_free(memory, &copy);

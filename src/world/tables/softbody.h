@@ -101,23 +101,46 @@ typedef struct pl_soft_pull {
     double tension, strain; // [N], [-]
 } pl_soft_pull;
 
-// Blocks of two by two, `count` of a column of L, in `rows`: work -= y l^T, 9 numbers a block (softbody/squares.simd.c).
-typedef void pl_soft_kernel(double *work, const double *y, const double *l, const uint32_t *rows,
-                            uint32_t count);
+// The inner loops of fronts (softbody/fronts.simd.c).
+typedef struct pl_soft_kernels {
+    void (*clear)(double *rest, size_t tall);
+    void (*add)(double *to, const double *from, uint32_t j, uint32_t count, const uint32_t *local,
+                const uint32_t *run, size_t shift);
+    void (*factor)(double *panel, uint32_t width, uint32_t below, double *inverse, double *scaled,
+                   double *rest);
+    void (*push)(const double *panel, uint32_t width, uint32_t below, double *x);
+    void (*pull)(const double *panel, uint32_t width, uint32_t below, double *x);
+} pl_soft_kernels;
+
+// Blocks that are eliminated together: columns of L with nearly the same rows.
+typedef struct pl_soft_front {
+    uint32_t first, end;    // blocks
+    uint32_t width, below;  // how many unknowns these are; those behind them that they have to do with
+    uint32_t parent;        // the front that takes over what this one leaves; PL_NONE
+    uint32_t child, next;   // the first one that it takes over; the next of the same parent
+    uint32_t at;            // in `places` and `local`: its own unknowns, then those below
+    size_t panel, rest;     // numbers: columns of L; what it leaves
+} pl_soft_front;
 
 // Unknowns in blocks of up to 3, the symmetric matrix by rows: lower neighbours and diagonal; factors L D L^T.
 typedef struct pl_soft_matrix {
-    uint32_t blocks, entries, factors;
+    uint32_t blocks, entries, front_count;
     uint32_t *first, *column; // entries of a row of blocks, by rising column
-    uint32_t *parent, *start, *fill, *row_of; // elimination tree; columns of L
+    uint32_t *parent, *fill;  // elimination tree; entries of a column of L
+    uint32_t *front_of;       // a block
     uint32_t *mark, *stack;
-    uint8_t *size;           // unknowns of a block
-    uint8_t *squares;        // whether a column of L has blocks of two by two alone
-    pl_soft_kernel *kernel;  // of the world's width
-    double *diagonal, *off;  // 9 a block
-    double *pivot, *split, *l, *work;
+    uint8_t *size;            // unknowns of a block
+    pl_soft_front *fronts;
+    size_t *into;             // of an entry: its place in the panels
+    uint32_t *places, *local; // of an unknown of a front: in vectors; what is below: in the parent's panel
+    uint32_t *run;            // likewise: how many from it on lie there one behind the other
+    const pl_soft_kernels *kernels; // of the world's width
+    double *diagonal, *off;   // 9 a block
+    double *panels, *rests, *scaled, *piece; // of fronts; of one front
+    size_t panel_size;
+    double *inverse;          // 1 / D
     double *right, *u, *tried, *slope, *way; // 3 a block
-    double *sheets;          // likewise: what triangles add to `right`
+    double *sheets;           // likewise: what triangles add to `right`
 } pl_soft_matrix;
 
 // A soft body that is awake, in a step.
@@ -140,7 +163,9 @@ typedef struct pl_soft_group {
 } pl_soft_group;
 
 typedef struct pl_soft_step {
-    pl_buffer points, bodies, obstacles, near_, contacts, keys, index, numbers, shapes, rows, pulls, winds, pushes;
+    pl_buffer points, bodies, obstacles, near_, contacts, keys, index, fronts, numbers, shapes, rows, pulls, winds, pushes;
+    pl_buffer kept;      // what the plan was made of (softbody/order.c)
+    bool planned;        // that plan stands
     pl_buffer members, groups, grouped; // pl_soft_member, by their groups; pl_soft_group; uint32_t: bodies
     pl_elimination elimination;
     uint32_t point_count, body_count, obstacle_count, near_count, contact_count, member_count, group_count;
