@@ -73,16 +73,13 @@ static answer spring_and_damper(double k, double c, const asked *e)
                          c * e->rate * e->rate / (2 * e->share) };
 }
 
-// A thread pulls only where it is longer than at rest, and its damper no more than its spring: what would be there at once
+// A thread pulls only where it is longer than at rest, as it is here, and its damper no more than its spring: what would be there at once
 // with the first stretch would have no least function, and passes went to and fro about it. Along q the rate is `own`
 // where the thread is at its length, and grows by `turn` with the stretch; the damper is the spring's equal up to the stretch
 // `from`, or, where it is the faster to grow, from `to` on.
 static answer thread(double k, double c, const asked *e)
 {
     const double s = e->stretch, turn = e->share / e->late, own = e->rate - turn * s;
-    if (s <= 0) {
-        return (answer){ 0, 0, 0 };
-    }
     const double equal = k - c * turn, meets = equal != 0 ? c * own / equal : -1;
     const double from = own >= 0 ? (equal > 0 ? meets : INFINITY) : -c * own / (k + c * turn);
     const double to = own < 0 && equal < 0 ? meets : INFINITY;
@@ -97,31 +94,66 @@ static answer thread(double k, double c, const asked *e)
                   : (answer){ k * s + c * e->rate, k * e->late + c * e->share, part / e->late };
 }
 
+// What of an edge stays as it is while a substep is solved.
+static void see_edge(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t first, double h,
+                     pl_soft_pull *out)
+{
+    const pl_soft_point *a = pl_soft_point_at(s, first + e->a);
+    const pl_soft_point *b = pl_soft_point_at(s, first + e->b);
+    const double k = (double)e->stiffness, follow = a->follow * k;
+    const double c = (double)e->damping + follow, w = ease(a) + ease(b);
+    const double z2 = h * h * k * w, zc = h * c * w;
+    const double lead = LEAD_MOST * z2 / (z2 + LEAD_SOFTNESS);
+    out->damping = c;
+    out->of = c > 0 ? follow / c : 0;
+    out->ahead = h * (0.5 + lead), out->late = h * (0.25 + 0.75 * lead);
+    out->share = 0.5 + 0.5 * zc / (zc + 4);
+}
+
+void pl_soft_see_edges(plumb_world *world, double h)
+{
+    const pl_softbodies *all = &world->softbodies;
+    const pl_soft_step *s = all->step;
+    for (uint32_t i = 0; i < s->member_count; ++i) {
+        const pl_soft_member *m = &pl_soft_members(s)[i];
+        const plumb_softbody_edge *edges = pl_softbody_edges(all) + m->at.edge;
+        pl_soft_pull *pulls = (pl_soft_pull *)s->pulls.data + m->at.edge;
+        for (uint32_t k = 0; k < pl_softbody_items(all)[m->item].edges; ++k) {
+            see_edge(s, &edges[k], m->at.point, h, &pulls[k]);
+        }
+    }
+}
+
+// How an edge answers: its stiffness goes to both ends, and between them.
+static void stiffen(const pl_soft_step *s, uint32_t ia, uint32_t ib, const double own[4])
+{
+    const double other[4] = { -own[0], -own[1], -own[2], -own[3] };
+    pl_soft_add(s, ia, ia, own);
+    pl_soft_add(s, ib, ib, own);
+    pl_soft_add(s, ia, ib, other);
+}
+
 static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t first, double h,
                    pl_soft_fill fill, pl_soft_pull *now)
 {
     const uint32_t ia = first + e->a, ib = first + e->b;
     const pl_soft_point *a = pl_soft_point_at(s, ia), *b = pl_soft_point_at(s, ib);
     const double k = (double)e->stiffness, rest = (double)e->length;
-    const double follow = a->follow * k, c = (double)e->damping + follow;
-    const double of = c > 0 ? follow / c : 0;
-    const double w = ease(a) + ease(b), z2 = h * h * k * w, zc = h * c * w;
-    const double lead = LEAD_MOST * z2 / (z2 + LEAD_SOFTNESS), later = 0.25 + 0.75 * lead;
-    const double share = 0.5 + 0.5 * zc / (zc + 4);
-    const double ta = h * (0.5 + lead), tb = h * later;
+    const double ta = now->ahead, tb = now->late, share = now->share, of = now->of;
     const double dx = b->x - a->x + ta * (b->vx - a->vx) + tb * (b->cx - a->cx);
     const double dy = b->y - a->y + ta * (b->vy - a->vy) + tb * (b->cy - a->cy);
     const double length = sqrt(dx * dx + dy * dy), stretch = length - rest;
-    *now = (pl_soft_pull){ 0, stretch / rest };
-    if (length < 1e-12) {
+    const bool pulls = (e->flags & PLUMB_EDGE_PULLS) != 0;
+    now->tension = 0, now->stretch = stretch;
+    if (length < 1e-12 || (pulls && stretch <= 0)) {
         return 0;
     }
     const double x = dx / length, y = dy / length;
     const double rate = x * (b->vx - a->vx + share * (b->cx - a->cx) - of * (b->way_x - a->way_x)) +
                         y * (b->vy - a->vy + share * (b->cy - a->cy) - of * (b->way_y - a->way_y));
     const asked way = { stretch, rate, tb, share };
-    const bool pulls = (e->flags & PLUMB_EDGE_PULLS) != 0;
-    const answer f = pulls ? thread(k, c, &way) : spring_and_damper(k, c, &way);
+    const answer f =
+        pulls ? thread(k, now->damping, &way) : spring_and_damper(k, now->damping, &way);
     now->tension = f.tension;
     if (fill != PL_SOFT_VALUE && f.tension != 0) {
         pl_soft_push(s, ia, h * f.tension * x, h * f.tension * y);
@@ -129,12 +161,9 @@ static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t
     }
     if (fill == PL_SOFT_ALL && (f.tension != 0 || f.slope != 0)) {
         const double along = h * f.slope, across = stretch > 0 ? h * tb * k * stretch / length : 0;
-        const double own[4] = { along * x * x + across * y * y, (along - across) * x * y,
-                                (along - across) * x * y, along * y * y + across * x * x };
-        const double other[4] = { -own[0], -own[1], -own[2], -own[3] };
-        pl_soft_add(s, ia, ia, own);
-        pl_soft_add(s, ib, ib, own);
-        pl_soft_add(s, ia, ib, other);
+        stiffen(s, ia, ib,
+                (const double[4]){ along * x * x + across * y * y, (along - across) * x * y,
+                                   (along - across) * x * y, along * y * y + across * x * x });
     }
     return h * f.part;
 }

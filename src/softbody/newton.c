@@ -258,16 +258,17 @@ static double rest_at(plumb_world *world, const pl_soft_group *g, double h, doub
 // of which an end that stays counts half (Dowell, Jarratt 1971). Near enough to exact where steps are halved (Armijo 1966), for
 // what friction holds lies in a fold of the function: a way to halve ends before or behind it, and the passes go to and fro over it.
 // Triangles, which cost the most, have no folds: their slope is taken as even between the ends of the way.
-static double best_part(plumb_world *world, const pl_soft_group *g, double h, double before,
-                        double gain)
+static double best_part(plumb_world *world, pl_soft_group *g, double h, double gain)
 {
     const pl_soft_matrix *m = &world->softbodies.step->matrix;
     const double sheets = slope_of_triangles(m, g);
     try_part(m, g, 1);
-    const double value = evaluate(world, g, h, PL_SOFT_SLOPES);
+    const double before = g->value;
+    g->value = evaluate(world, g, h, g->touches ? PL_SOFT_SLOPES : PL_SOFT_ALL);
     const double more = slope_of_triangles(m, g) - sheets;
     double high = 1, at_high = slope_of(m, g, m->right), low = 0, at_low = -gain;
-    if (value <= before - ENOUGH_OF_IT * gain || at_high <= 0) {
+    if (g->value <= before - ENOUGH_OF_IT * gain || at_high <= 0) {
+        g->known = !g->touches;
         return 1;
     }
     double part = 1;
@@ -291,11 +292,12 @@ static double best_part(plumb_world *world, const pl_soft_group *g, double h, do
 }
 
 // A pass of Newton's iteration. Twice what is to be gained by it: no number where there is none.
-static double pass(plumb_world *world, const pl_soft_group *g, double h, double enough)
+static double pass(plumb_world *world, pl_soft_group *g, double h, double enough)
 {
     pl_soft_matrix *m = &world->softbodies.step->matrix;
     const size_t count = size_of(g), bytes = count * sizeof(double);
-    const double before = evaluate(world, g, h, PL_SOFT_ALL);
+    g->value = g->known ? g->value : evaluate(world, g, h, PL_SOFT_ALL);
+    g->known = false;
     double *right = of_group(g, m->right), *way = of_group(g, m->way);
     double *slope = of_group(g, m->slope);
     memcpy(of_group(g, m->tried), of_group(g, m->u), bytes);
@@ -305,7 +307,7 @@ static double pass(plumb_world *world, const pl_soft_group *g, double h, double 
     memcpy(way, right, bytes);
     const double gain = product(slope, way, count);
     const bool goes_on = gain > enough && gain < 1e300;
-    try_part(m, g, goes_on ? best_part(world, g, h, before, gain) : 1);
+    try_part(m, g, goes_on ? best_part(world, g, h, gain) : 1);
     return gain;
 }
 
@@ -357,13 +359,14 @@ static bool settle(plumb_world *world, pl_soft_group *g, double h, double fall, 
     const pl_soft_step *s = world->softbodies.step;
     const double small = SMALL * fall, told = TOLD * fall;
     const double enough = g->mass * (small * small + 1e-12);
-    const bool touches = has_contacts(s, g);
     bool settled = false;
+    g->touches = has_contacts(s, g);
+    g->known = false;
     g->pass = 0;
     for (int round = 0; round < ROUNDS && (round == 0 || pl_soft_bind(s, g)); ++round) {
         const int until = g->pass + passes;
         double gain = INFINITY;
-        while (g->pass < until && (gain > enough || (g->pass < 3 && touches))) {
+        while (g->pass < until && (gain > enough || (g->pass < 3 && g->touches))) {
             gain = pass(world, g, h, enough);
             if (!(gain < 1e300)) { // no number: as if nothing pulled
                 guess(world, g, h);
@@ -387,6 +390,7 @@ void pl_soft_newton(plumb_world *world, double h, int passes)
     see_bodies(world, h * s->done, h);
     pl_soft_feel_winds(world, h * (s->done + 0.5));
     pl_soft_turn_pushes(world, h);
+    pl_soft_see_edges(world, h);
     for (uint32_t k = 0; k < s->group_count; ++k) {
         guess(world, &groups[k], h);
         change(world, &groups[k]); // where they are on their way to

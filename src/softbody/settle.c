@@ -7,7 +7,7 @@
 
 static void settle(plumb_softbody_edge *e, const pl_soft_pull *now)
 {
-    const double strain = now->strain, yield = (double)e->yield_strain;
+    const double strain = now->stretch / (double)e->length, yield = (double)e->yield_strain;
     const double length = (1 + strain) * (double)e->length;
     const bool torn = (e->flags & PLUMB_EDGE_TORN) != 0;
     e->flags &= ~PLUMB_EDGE_TORN_NOW;

@@ -154,6 +154,8 @@ void pl_soft_settle_edges(plumb_world *world);
 // [kg m^2/s^2]. As `fill` says their impulses are added to `right` [N s], their stiffness to the matrix.
 double pl_soft_triangles(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill);
 double pl_soft_elements(plumb_world *world, const pl_soft_group *g, double h, pl_soft_fill fill);
+// What of edges stays as it is while a substep is solved.
+void pl_soft_see_edges(plumb_world *world, double h);
 // [J] in all elements; [m^2], [N/m] of the gas of one.
 double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at);
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at);

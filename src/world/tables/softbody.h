@@ -98,7 +98,8 @@ typedef struct pl_soft_shove {
 
 // What an edge was asked for last.
 typedef struct pl_soft_pull {
-    double tension, strain; // [N], [-]
+    double tension, stretch;                // [N], [m]
+    double damping, of, ahead, late, share; // of a substep (softbody/elements.c)
 } pl_soft_pull;
 
 // The inner loops of fronts (softbody/fronts.simd.c).
@@ -159,6 +160,9 @@ typedef struct pl_soft_group {
     uint32_t first_block, end_block;
     double mass;    // [kg] of its members
     bool triangles; // it has some
+    bool touches;   // it has contacts
+    bool known;     // the matrix and all else are those of where u is
+    double value;   // of the function that is to be least, where it was asked last
     int pass;    // of this substep's iteration; friction acts from the second on
 } pl_soft_group;
 
