@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define MARGIN 6.0 // cells round the particles in which solids are looked for
-// [cells] across: less of a body, drawn in by films, would not always have a line of the grid within.
+// [cells] across: less of a body, drawn in by films, would not always have a line of the grid within. Without films it is a cell.
 #define THIN 1.5
 
 typedef pl_liquid_region region;
@@ -80,7 +80,7 @@ static bool add_solid(plumb_world *world, pl_liquid_scratch *scratch, uint32_t p
     s->count = shape.count;
     s->radius = (double)shape.radius * scale;
     s->width = width_of(&shape, scale);
-    s->thin = s->width < (body == PL_LIQUID_NONE ? 1 : THIN);
+    s->thin = s->width < (g->films && body != PL_LIQUID_NONE ? THIN : 1);
     s->exits = UINT32_MAX;
     return true;
 }
