@@ -90,9 +90,6 @@ static void a_vessel_stays_with_its_water(void **state)
     const trials t = trials_from(0, SEEDS);
     double fastest = 0;
     for (uint32_t k = t.first; k < t.end; ++k) {
-        if (!trials_takes(k, 3)) {
-            continue;
-        }
         uint32_t seed = (k + 1) * 2654435761u;
         vessel v;
         plumb_world *w = make(&v, &seed);
