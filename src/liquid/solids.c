@@ -19,6 +19,7 @@
 
 #define SIDE   PL_LIQUID_SIDE
 #define NARROW 3 // [cells] across
+#define AROUND 4 // lines beside a tile that such a piece may take most of, too
 
 //---- faces ---------------------------------------------------------------------------------------
 
@@ -235,12 +236,15 @@ static void cover_columns(pl_liquid_grid *g, const view *v)
 // through walls; elsewhere not, or what it covers would be cut off from the pressures on both sides.
 static int middle_of(const columns *inner, int i)
 {
+    const double bottom = bottom_of(inner, i), top = top_of(inner, i);
     double most = 0, unused;
     int middle = INT_MIN;
-    for (int j = (int)floor(bottom_of(inner, i) - 0.5); j <= top_of(inner, i) + 0.5; ++j) {
-        const double area = area_in(inner, i, j - 0.5, j + 0.5, &unused);
-        middle = area > most ? j : middle;
-        most = area > most ? area : most;
+    for (int j = -AROUND; j < SIDE + AROUND; ++j) {
+        if (j + 0.5 > bottom && j - 0.5 < top) {
+            const double area = area_in(inner, i, j - 0.5, j + 0.5, &unused);
+            middle = area > most ? j : middle;
+            most = area > most ? area : most;
+        }
     }
     return middle;
 }
