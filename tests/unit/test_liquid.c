@@ -116,7 +116,8 @@ static void chords_hold_what_is_inside(void **state)
     uint32_t r = 7;
     for (int k = 0; k < 200; ++k) {
         const double x[] = { 0, 2 + sim_uniform(&r, 0, 1), sim_uniform(&r, 0, 1) };
-        const double y[] = { sim_uniform(&r, 0, 1), 0.2, 2 }, radius = sim_uniform(&r, 0, 1);
+        const double y[] = { sim_uniform(&r, 0, 1), 0.2, 2 };
+        const double radius = k % 2 == 0 ? sim_uniform(&r, 0, 1) : 0;
         const double at = -1 + 5 * sim_uniform(&r, 0, 1);
         double low, high;
         const bool meets = pl_chord(x, y, 3, radius, at, &low, &high);
