@@ -58,8 +58,10 @@ bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *scratch, const plumb_a
 
 //---- carry.c -------------------------------------------------------------------------------------
 
-// How open faces are, how much room cells have, how fast solids fill them: from the grid.
+// How open faces are, how much room cells have: from the grid.
 void pl_air_find_room(pl_air_scratch *scratch, const plumb_air_desc *desc);
+// How fast solids fill cells, as they move in the grid.
+void pl_air_find_filled(pl_air_scratch *scratch, const plumb_air_desc *desc);
 // Fluxes of the velocities as they are.
 void pl_air_find_fluxes(pl_air_scratch *scratch, const plumb_air_desc *desc);
 // Carries with the fluxes for dt [s]; cells are h [m].

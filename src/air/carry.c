@@ -115,8 +115,51 @@ static near_real most_of(near_real a, near_real b)
     return a > b ? a : b;
 }
 
+// Of what is beside it, weighed by the faces between.
+typedef struct beside {
+    near_real open, smoke, heat;
+} beside;
+
+static void add_to(beside *sum, const pl_air_scratch *s, size_t from, near_real open)
+{
+    if (s->first[from] > 0) {
+        sum->open += open;
+        sum->smoke += open * s->smoke[from];
+        sum->heat += open * s->heat[from];
+    }
+}
+
+// What solids have left is filled with what flowed in behind them, while it had no cell to go into. `first`: room before.
+static void fill_left(pl_air_scratch *s)
+{
+    const size_t way = s->stride;
+    for (int32_t j = 0; j < s->columns_y; ++j) {
+        for (int32_t i = 0; i < s->columns_x; ++i) {
+            const size_t k = pl_air_at(s, i, j);
+            if (s->room[k] == 0 || s->first[k] > 0) {
+                continue;
+            }
+            beside sum = { 0, 0, 0 };
+            add_to(&sum, s, k - 1, s->open_u[k]);
+            add_to(&sum, s, k + 1, s->open_u[k + 1]);
+            add_to(&sum, s, k - way, s->open_v[k]);
+            add_to(&sum, s, k + way, s->open_v[k + way]);
+            if (sum.open > 0) {
+                s->smoke[k] = sum.smoke / sum.open;
+                s->heat[k] = sum.heat / sum.open;
+            }
+        }
+    }
+}
+
+static size_t column_bytes(const pl_air_scratch *s)
+{
+    return (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS) * sizeof(near_real);
+}
+
 void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
 {
+    memcpy(s->first, s->room, column_bytes(s));
     const pl_liquid_grid *g = &s->liquid.grid;
     const int32_t nx = s->columns_x, ny = s->columns_y;
     const bool wraps_x = d->left == PLUMB_AIR_PERIODIC, wraps_y = d->bottom == PLUMB_AIR_PERIODIC;
@@ -128,7 +171,7 @@ void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
             const bool inside = i < nx && j < ny;
             s->open_u[k] = j < ny ? g->open_u[c] : 0;
             s->open_v[k] = i < nx ? g->open_v[c] : 0;
-            s->room[k] = s->filled[k] = 0;
+            s->room[k] = 0;
             if (!inside || g->row[c] == 0) {
                 continue;
             }
@@ -136,15 +179,29 @@ void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
             const near_real open = most_of(most_of(g->open_u[c], g->open_u[right]),
                                            most_of(g->open_v[c], g->open_v[up]));
             s->room[k] = most_of(1 - g->cover[c], open);
-            // Sides do not fill cells: they let air in and out.
-            s->filled[k] = (i + 1 < nx || wraps_x ? g->solid_u[right] : 0) -
-                           (i > 0 || wraps_x ? g->solid_u[c] : 0) +
-                           (j + 1 < ny || wraps_y ? g->solid_v[up] : 0) -
-                           (j > 0 || wraps_y ? g->solid_v[c] : 0);
         }
     }
+    fill_left(s);
     const outside nearest = outside_of(d);
     fill_ghosts(s, s->room, (area){ nx, ny }, &nearest);
+}
+
+// Sides do not fill cells: they let air in and out.
+void pl_air_find_filled(pl_air_scratch *s, const plumb_air_desc *d)
+{
+    const pl_liquid_grid *g = &s->liquid.grid;
+    const int32_t nx = s->columns_x, ny = s->columns_y;
+    const bool wraps_x = d->left == PLUMB_AIR_PERIODIC, wraps_y = d->bottom == PLUMB_AIR_PERIODIC;
+    for (int32_t j = 0; j < ny; ++j) {
+        for (int32_t i = 0; i < nx; ++i) {
+            const uint32_t c = pl_liquid_cell_at(g, s->low_x + i, s->low_y + j);
+            const uint32_t right = g->right[c], up = g->up[c];
+            s->filled[pl_air_at(s, i, j)] = (i + 1 < nx || wraps_x ? g->solid_u[right] : 0) -
+                                            (i > 0 || wraps_x ? g->solid_u[c] : 0) +
+                                            (j + 1 < ny || wraps_y ? g->solid_v[up] : 0) -
+                                            (j > 0 || wraps_y ? g->solid_v[c] : 0);
+        }
+    }
 }
 
 void pl_air_find_fluxes(pl_air_scratch *s, const plumb_air_desc *d)

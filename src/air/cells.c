@@ -34,6 +34,7 @@ void pl_air_free(pl_memory *memory, pl_air *air)
     pl_buffer_free(memory, &air->settings);
     pl_buffer_free(memory, &air->cells);
     pl_buffer_free(memory, &air->sources);
+    pl_buffer_free(memory, &air->supports.items);
     *air = (pl_air){ .cell_count = 0 };
 }
 
@@ -72,6 +73,7 @@ void pl_air_load(pl_air_scratch *s, const plumb_air_cell *cells, double fastest)
             s->v[k] = (near_real)pl_liquid_held((double)cells->v, fastest);
             s->smoke[k] = (near_real)cells->smoke;
             s->heat[k] = (near_real)cells->heat;
+            s->room[k] = (near_real)cells->room;
         }
     }
 }

@@ -157,6 +157,7 @@ static bool run_half(const part *p, double dt)
     const double amount = (double)p->d->viscosity * dt / (p->h * p->h);
     pl_air_carry_velocities(s, p->d, p->world->tasks, dt, p->h);
     pl_air_drive(p->world, s, dt);
+    pl_liquid_pull_bodies(p->world, g, (real)dt);
     pl_liquid_follow_bodies(g);
     pl_air_to_grid(s);
     if (amount > 0) {
@@ -229,6 +230,7 @@ static bool run_part(plumb_world *world, double dt)
         return false;
     }
     pl_air_find_fluxes(s, d);
+    pl_air_find_filled(s, d);
     pl_air_carry_scalars(s, d, world->tasks, dt, h);
     reflect(s);
     reflect_bodies(g, p.gain);
@@ -237,6 +239,42 @@ static bool run_part(plumb_world *world, double dt)
         return false;
     }
     return move_solids(world, dt);
+}
+
+//---- what holds bodies ---------------------------------------------------------------------------
+
+// Whoever was not there before is expected to be held, as what lies on the ground is.
+static void hold_newcomers(const plumb_world *world, pl_liquid_grid *g)
+{
+    const pl_bodies *b = &world->bodies;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        pl_liquid_body *body = &g->bodies[i];
+        if (!body->moves || body->known) {
+            continue;
+        }
+        const uint32_t row = pl_body_row(world, body->body);
+        const double scale = (double)b->gravity_scale[row];
+        const double x = body->inv_mass_x > 0 ? scale / body->inv_mass_x : 0;
+        const double y = body->inv_mass_y > 0 ? scale / body->inv_mass_y : 0;
+        body->held[0] = -(x * (double)world->gravity.x + (double)b->fx[row]);
+        body->held[1] = -(y * (double)world->gravity.y + (double)b->fy[row]);
+        body->held[2] = -(double)b->torque[row];
+    }
+}
+
+// What holds them in their first step is taken to have done so before.
+static void trust_newcomers(const pl_liquid_scratch *scratch)
+{
+    const pl_liquid_grid *g = &scratch->grid;
+    pl_liquid_support *note = scratch->supports.data;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        if (g->bodies[i].moves) {
+            if (!g->bodies[i].known) {
+                memcpy(note->before, note->last, sizeof note->before);
+            }
+            ++note;
+        }
+    }
 }
 
 //---- the passes ----------------------------------------------------------------------------------
@@ -277,11 +315,14 @@ plumb_result pl_run_air(plumb_world *world, plumb_real dt)
     if (!pl_buffer_reserve(&world->memory, &s->moved, bytes) ||
         !pl_air_make_columns(&world->memory, s, pl_air_extent_of(d)) ||
         !pl_air_add_sides(&world->memory, s, d) ||
-        !pl_liquid_find_solids(world, &s->liquid, region_of(s, h), dt)) {
+        !pl_liquid_find_solids(world, &s->liquid, region_of(s, h), dt) ||
+        !pl_liquid_recall_supports(&world->memory, &air->supports, &s->liquid)) {
         return PLUMB_E_MEMORY;
     }
     memcpy(s->moved.data, air->cells.data, bytes);
+    hold_newcomers(world, &s->liquid.grid);
     if (is_still(world)) {
+        pl_liquid_pull_bodies(world, &s->liquid.grid, dt);
         return PLUMB_OK;
     }
     pl_liquid_place_solids(world, &s->liquid, 0);
@@ -304,9 +345,12 @@ plumb_result pl_run_air(plumb_world *world, plumb_real dt)
 plumb_result pl_run_air_motion(plumb_world *world, plumb_real dt)
 {
     pl_air *air = &world->air;
-    (void)dt;
+    pl_liquid_scratch *scratch = &air->scratch->liquid;
+    const uint32_t notes = pl_liquid_note_supports(world, &air->supports, scratch, dt);
+    trust_newcomers(scratch);
+    pl_liquid_take_supports(&air->supports, scratch, notes);
     memcpy(air->cells.data, air->scratch->moved.data, air->cell_count * sizeof(plumb_air_cell));
-    air->scratch->liquid.push_count = 0;
+    scratch->push_count = 0;
     return PLUMB_OK;
 }
 

@@ -161,9 +161,8 @@ bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_li
 
 //---- within the step -----------------------------------------------------------------------------
 
-void pl_liquid_pull_bodies(plumb_world *world, real dt)
+void pl_liquid_pull_bodies(const plumb_world *world, pl_liquid_grid *g, real dt)
 {
-    pl_liquid_grid *g = &world->liquid.scratch->grid;
     const pl_bodies *b = &world->bodies;
     for (uint32_t i = 0; i < g->body_count; ++i) {
         pl_liquid_body *body = &g->bodies[i];

@@ -240,7 +240,7 @@ void pl_liquid_free(pl_memory *memory, pl_liquid *liquid)
     pl_buffer_free(memory, &liquid->settings);
     pl_buffer_free(memory, &liquid->particles);
     pl_buffer_free(memory, &liquid->phases);
-    pl_buffer_free(memory, &liquid->supports);
+    pl_buffer_free(memory, &liquid->supports.items);
     pl_buffer_free(memory, &liquid->contacts);
     pl_buffer_free(memory, &liquid->ends);
     pl_buffer_free(memory, &liquid->index.heads);

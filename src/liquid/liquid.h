@@ -369,7 +369,7 @@ pl_liquid_region pl_liquid_region_of(const pl_liquid *liquid);
 bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_liquid_region region,
                            real dt);
 // Gravity and forces on bodies in dt.
-void pl_liquid_pull_bodies(plumb_world *world, real dt);
+void pl_liquid_pull_bodies(const plumb_world *world, pl_liquid_grid *grid, real dt);
 // The box of a solid and the normals of its sides, from its corners.
 void pl_liquid_find_reach(pl_liquid_solid *solid);
 // Bodies go on by their velocities for dt, and solids with them.
@@ -431,20 +431,24 @@ void pl_liquid_see_nodes(pl_liquid_grid *grid);
 //---- support.c -----------------------------------------------------------------------------------
 
 // What held a body until now, by the key of its entity; NULL: the liquid did not know it.
-const pl_liquid_support *pl_liquid_support_of(const pl_liquid *liquid, uint64_t key);
+const pl_liquid_support *pl_liquid_support_of(const pl_liquid_supports *supports, uint64_t key);
 // Gives the grid's bodies what held them in the last steps, and makes room for what will in this one. False when out of memory.
-bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid);
-// Bodies have got their velocities: what the liquid did not know of.
-void pl_liquid_note_supports(plumb_world *world, real dt);
+bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid_supports *supports,
+                               pl_liquid_scratch *scratch);
+// Bodies have got their velocities: what the grid did not know of, in the scratch's `supports` in the order of its `order`; how many.
+uint32_t pl_liquid_note_supports(const plumb_world *world, const pl_liquid_supports *supports,
+                                 pl_liquid_scratch *scratch, real dt);
+// They take the place of those of the step before.
+void pl_liquid_take_supports(pl_liquid_supports *supports, const pl_liquid_scratch *scratch,
+                             uint32_t count);
 
 //---- touch.c -------------------------------------------------------------------------------------
 
-// Room for what so many bodies and soft bodies will have to tell. False when out of memory.
-bool pl_liquid_reserve_touches(pl_memory *memory, pl_liquid *liquid, size_t count);
+// Room for what bodies and soft bodies of the grid will have to tell. False when out of memory.
+bool pl_liquid_reserve_touches(pl_memory *memory, pl_liquid *liquid);
 bool pl_liquid_softbody_is_wet(const pl_liquid_grid *grid, const pl_liquid_softbody *body);
-// Contacts and ends of the step, before its supports take the place of those of the one before: the scratch's `supports`
-// in the order of its `order`.
-void pl_liquid_tell_touches(plumb_world *world, double dt);
+// Contacts and ends of the step by its `notes`, before these take the place of those of the one before.
+void pl_liquid_tell_touches(plumb_world *world, uint32_t notes, double dt);
 
 //---- step.c --------------------------------------------------------------------------------------
 

@@ -19,7 +19,7 @@
 
 bool pl_want_liquid(const plumb_world *world, const char **reason)
 {
-    const bool wanted = world->liquid.count > 0 || world->liquid.support_count > 0;
+    const bool wanted = world->liquid.count > 0 || world->liquid.supports.count > 0;
     *reason = wanted ? "there is liquid, or was in the last step" : "there is no liquid";
     return wanted;
 }
@@ -110,7 +110,7 @@ static bool run_part(plumb_world *world, real dt, int i, int parts)
     plumb_particle *moved = scratch->moved.data;
     const double h = 2 * (double)d->spacing;
     const uint32_t count = world->liquid.count;
-    pl_liquid_pull_bodies(world, dt);
+    pl_liquid_pull_bodies(world, g, dt);
     if ((i > 0 && !pl_liquid_find_spots(memory, scratch, moved, count)) || // else strays had these
         !pl_liquid_grid_build(memory, scratch, moved, count) ||
         !pl_liquid_close_faces(memory, scratch) || !pl_liquid_sum_cells(memory, scratch)) {
@@ -195,7 +195,8 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
         !pl_liquid_find_solids(world, scratch, region, dt) ||
         !pl_liquid_find_soft(world, scratch, region, dt) ||
-        !pl_liquid_recall_supports(&world->memory, liquid)) {
+        !pl_liquid_recall_supports(&world->memory, &liquid->supports, scratch) ||
+        !pl_liquid_reserve_touches(&world->memory, liquid)) {
         return PLUMB_E_MEMORY;
     }
     if (liquid->count == 0) { // it has gone, which those whom it touched have not been told
@@ -223,7 +224,9 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
 plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
 {
     pl_liquid *liquid = &world->liquid;
-    pl_liquid_note_supports(world, dt);
+    const uint32_t notes = pl_liquid_note_supports(world, &liquid->supports, liquid->scratch, dt);
+    pl_liquid_tell_touches(world, notes, (double)dt);
+    pl_liquid_take_supports(&liquid->supports, liquid->scratch, notes);
     pl_soft_drop_pushes(world);
     if (liquid->count > 0) {
         memcpy(liquid->particles.data, liquid->scratch->moved.data,

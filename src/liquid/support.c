@@ -34,39 +34,40 @@ static void find_common(const pl_liquid_support *s, double held[3])
     held[2] = shorter(a[2], b[2]);
 }
 
-const pl_liquid_support *pl_liquid_support_of(const pl_liquid *liquid, uint64_t key)
+const pl_liquid_support *pl_liquid_support_of(const pl_liquid_supports *supports, uint64_t key)
 {
-    const pl_liquid_support *all = liquid->supports.data;
+    const pl_liquid_support *all = supports->items.data;
     bool found = false;
-    const uint32_t at = pl_find_key(all, liquid->support_count, sizeof *all, key, &found);
+    const uint32_t at = pl_find_key(all, supports->count, sizeof *all, key, &found);
     return found ? &all[at] : NULL;
 }
 
-static void recall(const pl_liquid *liquid, plumb_entity entity, double held[3])
+static bool recall(const pl_liquid_supports *supports, plumb_entity entity, double held[3])
 {
     const pl_liquid_support *s =
-        liquid->support_count > 0 ? pl_liquid_support_of(liquid, key_of(entity)) : NULL;
+        supports->count > 0 ? pl_liquid_support_of(supports, key_of(entity)) : NULL;
     if (s != NULL) {
         find_common(s, held);
     }
+    return s != NULL;
 }
 
-bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid *liquid)
+bool pl_liquid_recall_supports(pl_memory *memory, pl_liquid_supports *supports,
+                               pl_liquid_scratch *scratch)
 {
-    pl_liquid_scratch *scratch = liquid->scratch;
     const pl_liquid_grid *g = &scratch->grid;
     const size_t count = (size_t)g->body_count + g->softbody_count;
     if (!pl_buffer_reserve(memory, &scratch->order, count * sizeof(pl_keyed)) ||
         !pl_buffer_reserve(memory, &scratch->supports, count * sizeof(pl_liquid_support)) ||
-        !pl_buffer_reserve(memory, &liquid->supports, count * sizeof(pl_liquid_support)) ||
-        !pl_liquid_reserve_touches(memory, liquid, count)) {
+        !pl_buffer_reserve(memory, &supports->items, count * sizeof(pl_liquid_support))) {
         return false;
     }
     for (uint32_t i = 0; i < g->body_count; ++i) {
-        recall(liquid, g->bodies[i].body.entity, g->bodies[i].held);
+        pl_liquid_body *b = &g->bodies[i];
+        b->known = recall(supports, b->body.entity, b->held);
     }
     for (uint32_t i = 0; i < g->softbody_count; ++i) {
-        recall(liquid, g->softbodies[i].entity.entity, g->softbodies[i].held);
+        recall(supports, g->softbodies[i].entity.entity, g->softbodies[i].held);
     }
     return true;
 }
@@ -77,9 +78,9 @@ static double force_of(double held, double more, double inverse, double dt)
     return inverse > 0 ? pl_liquid_held(held + more / (inverse * dt), PL_LIQUID_FORCE) : 0;
 }
 
-static pl_liquid_support note(const plumb_world *world, plumb_entity entity)
+static pl_liquid_support note(const pl_liquid_supports *supports, plumb_entity entity)
 {
-    const pl_liquid_support *old = pl_liquid_support_of(&world->liquid, key_of(entity));
+    const pl_liquid_support *old = pl_liquid_support_of(supports, key_of(entity));
     pl_liquid_support s = { .key = key_of(entity) };
     if (old != NULL) {
         memcpy(s.before, old->last, sizeof s.before);
@@ -87,11 +88,12 @@ static pl_liquid_support note(const plumb_world *world, plumb_entity entity)
     return s;
 }
 
-static pl_liquid_support note_body(const plumb_world *world, const pl_liquid_body *body, double dt)
+static pl_liquid_support note_body(const plumb_world *world, const pl_liquid_supports *supports,
+                                   const pl_liquid_body *body, double dt)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t row = pl_body_row(world, body->body);
-    pl_liquid_support s = note(world, body->body.entity);
+    pl_liquid_support s = note(supports, body->body.entity);
     s.last[0] = force_of(body->held[0], (double)b->vx[row] - body->vx, body->inv_mass_x, dt);
     s.last[1] = force_of(body->held[1], (double)b->vy[row] - body->vy, body->inv_mass_y, dt);
     s.last[2] = force_of(body->held[2], (double)b->w[row] - body->w, body->inv_inertia, dt);
@@ -99,12 +101,11 @@ static pl_liquid_support note_body(const plumb_world *world, const pl_liquid_bod
     return s;
 }
 
-static pl_liquid_support note_softbody(const plumb_world *world, const pl_liquid_softbody *body,
-                                       double dt)
+static pl_liquid_support note_softbody(const pl_liquid_supports *supports, const pl_liquid_grid *g,
+                                       const pl_liquid_softbody *body, double dt)
 {
-    const pl_liquid_grid *g = &world->liquid.scratch->grid;
     const double turns = body->inertia > 0 ? 1 / body->inertia : 0;
-    pl_liquid_support s = note(world, body->entity.entity);
+    pl_liquid_support s = note(supports, body->entity.entity);
     double found[3], now[3];
     pl_liquid_soft_motion(g, body, false, found);
     pl_liquid_soft_motion(g, body, true, now);
@@ -115,29 +116,36 @@ static pl_liquid_support note_softbody(const plumb_world *world, const pl_liquid
     return s;
 }
 
-void pl_liquid_note_supports(plumb_world *world, real dt)
+uint32_t pl_liquid_note_supports(const plumb_world *world, const pl_liquid_supports *supports,
+                                 pl_liquid_scratch *scratch, real dt)
 {
-    pl_liquid *liquid = &world->liquid;
-    pl_liquid_scratch *scratch = liquid->scratch;
     const pl_liquid_grid *g = &scratch->grid;
-    pl_liquid_support *notes = scratch->supports.data, *to = liquid->supports.data;
+    pl_liquid_support *notes = scratch->supports.data;
     pl_keyed *order = scratch->order.data;
     uint32_t count = 0;
     for (uint32_t i = 0; i < g->body_count; ++i) {
         if (g->bodies[i].moves) {
-            notes[count++] = note_body(world, &g->bodies[i], (double)dt);
+            notes[count++] = note_body(world, supports, &g->bodies[i], (double)dt);
         }
     }
     for (uint32_t i = 0; i < g->softbody_count; ++i) {
-        notes[count++] = note_softbody(world, &g->softbodies[i], (double)dt);
+        notes[count++] = note_softbody(supports, g, &g->softbodies[i], (double)dt);
     }
     for (uint32_t i = 0; i < count; ++i) {
         order[i] = (pl_keyed){ .key = notes[i].key, .value = i };
     }
     pl_sort_keyed(order, count);
-    pl_liquid_tell_touches(world, (double)dt);
+    return count;
+}
+
+void pl_liquid_take_supports(pl_liquid_supports *supports, const pl_liquid_scratch *scratch,
+                             uint32_t count)
+{
+    const pl_liquid_support *notes = scratch->supports.data;
+    const pl_keyed *order = scratch->order.data;
+    pl_liquid_support *to = supports->items.data;
     for (uint32_t i = 0; i < count; ++i) {
         to[i] = notes[order[i].value];
     }
-    liquid->support_count = count;
+    supports->count = count;
 }

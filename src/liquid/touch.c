@@ -5,13 +5,14 @@
 #include "liquid/liquid.h"
 #include "world/state.h"
 
-bool pl_liquid_reserve_touches(pl_memory *memory, pl_liquid *liquid, size_t count)
+bool pl_liquid_reserve_touches(pl_memory *memory, pl_liquid *liquid)
 {
     pl_liquid_scratch *scratch = liquid->scratch;
+    const size_t count = (size_t)scratch->grid.body_count + scratch->grid.softbody_count;
     return pl_buffer_reserve(memory, &scratch->touches, count * sizeof(plumb_liquid_contact)) &&
            pl_buffer_reserve(memory, &liquid->contacts, count * sizeof(plumb_liquid_contact)) &&
            pl_buffer_reserve(memory, &liquid->ends,
-                             liquid->support_count * sizeof(plumb_liquid_end));
+                             liquid->supports.count * sizeof(plumb_liquid_end));
 }
 
 bool pl_liquid_softbody_is_wet(const pl_liquid_grid *g, const pl_liquid_softbody *body)
@@ -56,7 +57,7 @@ static void tell_contacts(pl_liquid *liquid, const pl_keyed *order, uint32_t cou
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t k = order[i].value;
         if (notes[k].wet != PL_LIQUID_DRY) {
-            const pl_liquid_support *before = pl_liquid_support_of(liquid, notes[k].key);
+            const pl_liquid_support *before = pl_liquid_support_of(&liquid->supports, notes[k].key);
             to[liquid->contact_count] = touches[k];
             to[liquid->contact_count++].began = before == NULL || before->wet == PL_LIQUID_DRY;
         }
@@ -66,9 +67,9 @@ static void tell_contacts(pl_liquid *liquid, const pl_keyed *order, uint32_t cou
 static void tell_ends(pl_liquid *liquid, const pl_keyed *order, uint32_t count)
 {
     const pl_liquid_support *notes = liquid->scratch->supports.data;
-    const pl_liquid_support *before = liquid->supports.data;
+    const pl_liquid_support *before = liquid->supports.items.data;
     plumb_liquid_end *to = liquid->ends.data;
-    for (uint32_t i = 0; i < liquid->support_count; ++i) {
+    for (uint32_t i = 0; i < liquid->supports.count; ++i) {
         bool found = false;
         const uint32_t at = pl_find_key(order, count, sizeof *order, before[i].key, &found);
         const plumb_entity entity = { (uint32_t)(before[i].key >> 32), (uint32_t)before[i].key };
@@ -82,7 +83,7 @@ static void tell_ends(pl_liquid *liquid, const pl_keyed *order, uint32_t count)
     }
 }
 
-void pl_liquid_tell_touches(plumb_world *world, double dt)
+void pl_liquid_tell_touches(plumb_world *world, uint32_t notes, double dt)
 {
     pl_liquid *liquid = &world->liquid;
     const pl_liquid_grid *g = &liquid->scratch->grid;
@@ -96,6 +97,6 @@ void pl_liquid_tell_touches(plumb_world *world, double dt)
     for (uint32_t i = 0; i < g->softbody_count; ++i) {
         touches[count++] = soft_contact_of(g, &g->softbodies[i], dt);
     }
-    tell_contacts(liquid, liquid->scratch->order.data, count);
-    tell_ends(liquid, liquid->scratch->order.data, count);
+    tell_contacts(liquid, liquid->scratch->order.data, notes);
+    tell_ends(liquid, liquid->scratch->order.data, notes);
 }

@@ -252,27 +252,34 @@ static bool check_records(const plumb_world *w)
     return characters == w->characters.count && has_settings == w->settings.count;
 }
 
+// What has gone meanwhile is passed over.
+static bool check_supports(const pl_liquid_supports *supports)
+{
+    const pl_liquid_support *all = supports->items.data;
+    bool sound = true;
+    for (uint32_t i = 0; i < supports->count && sound; ++i) {
+        sound = (i == 0 || all[i - 1].key < all[i].key) && all[i].wet <= PL_LIQUID_WET_SOFTBODY;
+        for (int k = 0; k < 3; ++k) {
+            sound &=
+                all[i].last[k] - all[i].last[k] == 0 && all[i].before[k] - all[i].before[k] == 0;
+        }
+    }
+    return sound;
+}
+
 static bool check_liquid(const plumb_world *w)
 {
     const pl_liquid *f = &w->liquid;
     if (f->settings_count > 1 || f->count > PLUMB_LIQUID_MAX ||
         f->phase_count > PLUMB_LIQUID_MAX_PHASES ||
-        (f->count + f->phase_count + f->support_count > 0 && f->settings_count == 0)) {
+        (f->count + f->phase_count + f->supports.count > 0 && f->settings_count == 0)) {
         return false;
     }
     bool sound = f->settings_count == 0 || pl_liquid_desc_is_sound(pl_liquid_desc(f));
     for (uint32_t i = 0; i < f->phase_count && sound; ++i) {
         sound = pl_liquid_phase_is_sound(&pl_liquid_phases(f)[i], pl_liquid_desc(f)->density);
     }
-    for (uint32_t i = 0; i < f->support_count && sound; ++i) {
-        const pl_liquid_support *all = f->supports.data;
-        sound = (i == 0 || all[i - 1].key < all[i].key) && // what has gone meanwhile is passed over
-                all[i].wet <= PL_LIQUID_WET_SOFTBODY;
-        for (int k = 0; k < 3; ++k) {
-            sound &=
-                all[i].last[k] - all[i].last[k] == 0 && all[i].before[k] - all[i].before[k] == 0;
-        }
-    }
+    sound = sound && check_supports(&f->supports);
     for (uint32_t i = 0; i < f->count && sound; ++i) {
         sound = pl_liquid_particle_is_sound(&pl_liquid_items(f)[i], f->phase_count);
     }
@@ -283,14 +290,15 @@ static bool check_air(const plumb_world *w)
 {
     const pl_air *air = &w->air;
     if (air->settings_count == 0) {
-        return air->cell_count == 0 && air->source_count == 0;
+        return air->cell_count == 0 && air->source_count == 0 && air->supports.count == 0;
     }
     if (air->settings_count > 1 || air->source_count > PLUMB_AIR_MAX_SOURCES || pl_is_wrapped(w) ||
         !pl_air_desc_is_sound(pl_air_desc(air))) {
         return false;
     }
     const pl_air_extent box = pl_air_extent_of(pl_air_desc(air));
-    bool sound = air->cell_count == (uint32_t)((box.columns + 1) * (box.rows + 1));
+    bool sound = air->cell_count == (uint32_t)((box.columns + 1) * (box.rows + 1)) &&
+                 check_supports(&air->supports);
     for (uint32_t i = 0; i < air->cell_count && sound; ++i) {
         sound = pl_air_cell_is_sound(&pl_air_items(air)[i]);
     }

@@ -146,7 +146,7 @@
     ARRAY(plumb_liquid_desc, liquid.settings, liquid.settings_count, sizeof(plumb_liquid_desc), 0)     \
     ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
     ARRAY(plumb_liquid_phase, liquid.phases, liquid.phase_count, sizeof(plumb_liquid_phase), 0)        \
-    ARRAY(pl_liquid_support, liquid.supports, liquid.support_count, sizeof(pl_liquid_support), 8)      \
+    ARRAY(pl_liquid_support, liquid.supports.items, liquid.supports.count, sizeof(pl_liquid_support), 8)      \
     LEFT(liquid.scratch) LEFT(liquid.contacts) LEFT(liquid.ends) LEFT(liquid.contact_count)        \
     LEFT(liquid.end_count) LEFT(liquid.index)
 
@@ -154,6 +154,7 @@
     ARRAY(plumb_air_desc, air.settings, air.settings_count, sizeof(plumb_air_desc), 0)             \
     ARRAY(plumb_air_cell, air.cells, air.cell_count, sizeof(plumb_air_cell), 0)                    \
     ARRAY(plumb_air_source, air.sources, air.source_count, sizeof(plumb_air_source), 0)            \
+    ARRAY(pl_liquid_support, air.supports.items, air.supports.count, sizeof(pl_liquid_support), 8)  \
     LEFT(air.scratch)
 #define PL_STATE_SOFTBODIES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     ARRAY(pl_softbody, softbodies.items, softbodies.count, sizeof(pl_softbody), 8)                 \

@@ -321,13 +321,13 @@ static bool is_held(const pl_section *section)
 static bool is_counted(const pl_section *section)
 {
     static const char *const counted[] = {
-        "joints.items",     "sleep.islands",    "sleep.contacts",   "characters.items",
-        "liquid.settings",  "liquid.particles", "liquid.phases",    "liquid.supports",
-        "air.settings",     "air.cells",        "air.sources",      "laws.items",
-        "laws.formulas",    "laws.orbits",      "fracture.pending", "softbodies.items",
-        "softbodies.nodes", "softbodies.edges", "softbodies.bends", "softbodies.triangles",
-        "softbodies.rings", "softbodies.pins",  "softbodies.rests", "waves.items",
-        "waves.modes",      "heats.items",      "heats.state"
+        "joints.items",         "sleep.islands",    "sleep.contacts",   "characters.items",
+        "liquid.settings",      "liquid.particles", "liquid.phases",    "liquid.supports.items",
+        "air.settings",         "air.cells",        "air.sources",      "air.supports.items",
+        "laws.items",           "laws.formulas",    "laws.orbits",      "fracture.pending",
+        "softbodies.items",     "softbodies.nodes", "softbodies.edges", "softbodies.bends",
+        "softbodies.triangles", "softbodies.rings", "softbodies.pins",  "softbodies.rests",
+        "waves.items",          "waves.modes",      "heats.items",      "heats.state"
     };
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; ++i) {
         if (strcmp(section->name, counted[i]) == 0) {

@@ -43,7 +43,8 @@ typedef struct pl_air {
     uint32_t cell_count; // (columns + 1) * (rows + 1)
     pl_buffer cells;     // plumb_air_cell
     uint32_t source_count;
-    pl_buffer sources;       // plumb_air_source
+    pl_buffer sources; // plumb_air_source
+    pl_liquid_supports supports;
     pl_air_scratch *scratch; // NULL: no step has needed it yet
 } pl_air;
 

@@ -122,6 +122,7 @@ typedef struct pl_liquid_body {
     double vx, vy, w;                  // [m/s], [rad/s]
     double seen[3];                    // that motion, as the faces that it closes have it
     double held[3];                    // [N], [N m] what held it in the last step, as far as it goes on
+    bool known;                        // in the last step it was there
     double inv_mass_x, inv_mass_y;     // [1/kg] 0: it is locked
     double inv_inertia;                // [1/(kg m^2)]
     double impulse_x, impulse_y, turn; // [N s], [N m s] since the step began
@@ -139,6 +140,12 @@ typedef struct pl_liquid_support {
 } pl_liquid_support;
 
 enum { PL_LIQUID_DRY, PL_LIQUID_WET_BODY, PL_LIQUID_WET_SOFTBODY };
+
+// Of all bodies that it knew in the last step.
+typedef struct pl_liquid_supports {
+    pl_buffer items; // pl_liquid_support, by key
+    uint32_t count;
+} pl_liquid_supports;
 
 // A part of a face that a moving body closes.
 typedef struct pl_liquid_link {
@@ -325,8 +332,7 @@ typedef struct pl_liquid {
     pl_buffer particles; // plumb_particle
     pl_buffer phases;    // plumb_liquid_phase, beside the first
     uint32_t phase_count;
-    uint32_t support_count;
-    pl_buffer supports;         // pl_liquid_support, by key
+    pl_liquid_supports supports;
     pl_liquid_scratch *scratch; // NULL: no step has needed it yet
     pl_buffer contacts, ends;   // plumb_liquid_contact, plumb_liquid_end: of the last step
     uint32_t contact_count, end_count;
