@@ -27,9 +27,29 @@ static const char yard[] =
     "at(0.8, function() j:remove() end)\n"
     "expect{ 'one edge is torn', at = 1, test = function() return r:measure().torn == 1 end }\n";
 
+// A thread whose length at rest a handler halves hangs half as low.
+static const char winch[] =
+    "scene{ duration = 2 }\n"
+    "body{ name = 'load', circle{0.1}, at = {0, -1.1}, mass = 1, damping = 2 }\n"
+    "local r = rope{ from = {0, 0}, to = {0, -1}, to_body = 'load', hold = 'both', nodes = 2, mass "
+    "="
+    " 0.1, stiffness = 1e5 }\n"
+    "local a, b, rest, torn = r:edge(1)\n"
+    "print(a, b, rest, torn)\n"
+    "every_step(function(t) r:set_rest(1, 1 - 0.5 * math.min(1, t)) end)\n"
+    "expect{ 'drawn up', at = 2, body = 'load', y = {-0.62, -0.58} }\n";
+
 static int count_of(const scene *s, plumb_softbody all[8])
 {
     return plumb_world_softbodies(scene_world(s), all, 8);
+}
+
+static void an_edge_draws_in(void **state)
+{
+    (void)state;
+    scene *s = load(winch);
+    run_and_hold(s);
+    scene_destroy(s);
 }
 
 static void words_make_them(void **state)
@@ -161,6 +181,10 @@ static void mistakes_are_told(void **state)
           "0, 1 (it only pulls)" },
         { "softbody{ nodes = {{0, 0, 0, 0, 1, 0}}, pins = {{1, 'x', 0}} }", "pin 1 must be" },
         { "local r = rope{ from = {0, 1}, to = {3, 1} } r:cut(1000)", "there are edges" },
+        { "local r = rope{ from = {0, 1}, to = {3, 1} } r:edge(0)", "there are edges" },
+        { "local r = rope{ from = {0, 1}, to = {3, 1} } r:set_rest(1.5, 1)", "there are edges" },
+        { "local r = rope{ from = {0, 1}, to = {3, 1} } r:set_rest(1, 0)", "above 0 m" },
+        { "local r = rope{ from = {0, 1}, to = {3, 1} } r:set_rest(1, 1e7)", "length" },
         { "local r = rope{ from = {0, 1}, to = {3, 1} } r:node(0)", "node" },
         { "local r = rope{ from = {0, 1}, to = {3, 1} } r:hold(1, 0, 0, 3)", "a body" },
         { "local r = rope{ from = {0, 1}, to = {3, 1} } r:release(2)", "nothing holds node 2" },
@@ -187,9 +211,8 @@ static void mistakes_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_make_them),
-        cmocka_unit_test(json_keeps_them),
-        cmocka_unit_test(words_of_sleep),
+        cmocka_unit_test(words_make_them),   cmocka_unit_test(an_edge_draws_in),
+        cmocka_unit_test(json_keeps_them),   cmocka_unit_test(words_of_sleep),
         cmocka_unit_test(mistakes_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -388,6 +388,7 @@ void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex);
 #define SC_META_BODY     "plumb.body"
 #define SC_META_JOINT    "plumb.joint"
 #define SC_META_WORLD    "plumb.world"
+#define SC_META_SOFTBODY "plumb.softbody"
 
 lua_State *sc_sandbox_open(scene *s); ///< state with allow-listed environment; null: no memory
 typedef void sc_protected_fn(scene *s, void *argument);
@@ -461,6 +462,9 @@ void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind,
                        int table);                              ///< pushes it
 void sc_build_source(scene *s, const sc_site *site, int table); ///< pushes it
 void sc_build_camera(scene *s, const sc_site *site, int table);
+/// A node that counts from 1, of so many, as one that counts from 0.
+uint32_t sc_node_index(scene *s, const sc_site *site, const char *key, double number, int of);
+void sc_open_softbody_methods(lua_State *L);
 void sc_build_expect(scene *s, const sc_site *site, int table);
 void sc_build_exact(scene *s, const sc_site *site, int table);
 void sc_check_build(scene *s); ///< after the build pass: unused things, unknown names

@@ -1,13 +1,11 @@
 // softbody.c - rope{}, cloth{}, jelly{}, balloon{}: ready-made soft bodies (plumb/softbody.h); softbody{}: one node by node,
-// which is also what JSON has. Each answers with an object: its methods pin, free, cut and ask.
+// which is also what JSON has. Each answers with an object (softbody_api.c).
 //
 // In scenes nodes and edges count from 1.
 #include <math.h>
 #include <string.h>
 
 #include "internal.h"
-
-#define META "plumb.softbody"
 
 #define GIVEN(list, member) SC_GIVEN(list, d, sc_softbody_def, member)
 
@@ -191,8 +189,7 @@ static double *take_rows(scene *s, const sc_site *site, int table, const char *k
     return out;
 }
 
-// A number that counts from 1, of `of` things, as one that counts from 0.
-static uint32_t index_of(scene *s, const sc_site *site, const char *key, double number, int of)
+uint32_t sc_node_index(scene *s, const sc_site *site, const char *key, double number, int of)
 {
     if (!(number >= 1 && number <= of && number == floor(number))) {
         sc_raise(s, SCENE_E_RANGE, site, key, 0, NULL, "'%s' names node %.10g; there are 1..%d",
@@ -230,14 +227,15 @@ static void take_edges(scene *s, const sc_site *site, int table, plumb_softbody_
             sc_raise(s, SCENE_E_RANGE, site, "edges", 0, NULL,
                      "the last number of an edge is 0, 1 (it only pulls), 2 (torn) or 3");
         }
-        edges[i] = (plumb_softbody_edge){ .a = index_of(s, site, "edges", v[0], desc->node_count),
-                                          .b = index_of(s, site, "edges", v[1], desc->node_count),
-                                          .length = (plumb_real)v[2],
-                                          .stiffness = (plumb_real)v[3],
-                                          .damping = (plumb_real)v[4],
-                                          .break_strain = (plumb_real)v[5],
-                                          .yield_strain = (plumb_real)v[6],
-                                          .flags = (uint32_t)v[7] };
+        edges[i] =
+            (plumb_softbody_edge){ .a = sc_node_index(s, site, "edges", v[0], desc->node_count),
+                                   .b = sc_node_index(s, site, "edges", v[1], desc->node_count),
+                                   .length = (plumb_real)v[2],
+                                   .stiffness = (plumb_real)v[3],
+                                   .damping = (plumb_real)v[4],
+                                   .break_strain = (plumb_real)v[5],
+                                   .yield_strain = (plumb_real)v[6],
+                                   .flags = (uint32_t)v[7] };
     }
     desc->edges = edges;
 }
@@ -247,12 +245,13 @@ static void take_bends(scene *s, const sc_site *site, int table, plumb_softbody_
     const double *v = take_rows(s, site, table, "bends", 6, &desc->bend_count);
     plumb_softbody_bend *bends = block(s, desc->bend_count, sizeof *bends);
     for (int i = 0; i < desc->bend_count; i++, v += 6) {
-        bends[i] = (plumb_softbody_bend){ .a = index_of(s, site, "bends", v[0], desc->node_count),
-                                          .b = index_of(s, site, "bends", v[1], desc->node_count),
-                                          .c = index_of(s, site, "bends", v[2], desc->node_count),
-                                          .stiffness = (plumb_real)v[3],
-                                          .length = (plumb_real)v[4],
-                                          .angle = (plumb_real)v[5] };
+        bends[i] =
+            (plumb_softbody_bend){ .a = sc_node_index(s, site, "bends", v[0], desc->node_count),
+                                   .b = sc_node_index(s, site, "bends", v[1], desc->node_count),
+                                   .c = sc_node_index(s, site, "bends", v[2], desc->node_count),
+                                   .stiffness = (plumb_real)v[3],
+                                   .length = (plumb_real)v[4],
+                                   .angle = (plumb_real)v[5] };
     }
     desc->bends = bends;
 }
@@ -262,15 +261,16 @@ static void take_triangles(scene *s, const sc_site *site, int table, plumb_softb
     const double *v = take_rows(s, site, table, "triangles", 10, &desc->triangle_count);
     plumb_softbody_triangle *t = block(s, desc->triangle_count, sizeof *t);
     for (int i = 0; i < desc->triangle_count; i++, v += 10) {
-        t[i] =
-            (plumb_softbody_triangle){ .a = index_of(s, site, "triangles", v[0], desc->node_count),
-                                       .b = index_of(s, site, "triangles", v[1], desc->node_count),
-                                       .c = index_of(s, site, "triangles", v[2], desc->node_count),
-                                       .young = (plumb_real)v[3],
-                                       .poisson = (plumb_real)v[4],
-                                       .damping = (plumb_real)v[5],
-                                       .ab = vec(v + 6),
-                                       .ac = vec(v + 8) };
+        t[i] = (plumb_softbody_triangle){
+            .a = sc_node_index(s, site, "triangles", v[0], desc->node_count),
+            .b = sc_node_index(s, site, "triangles", v[1], desc->node_count),
+            .c = sc_node_index(s, site, "triangles", v[2], desc->node_count),
+            .young = (plumb_real)v[3],
+            .poisson = (plumb_real)v[4],
+            .damping = (plumb_real)v[5],
+            .ab = vec(v + 6),
+            .ac = vec(v + 8)
+        };
     }
     desc->triangles = t;
 }
@@ -280,7 +280,7 @@ static void take_ring(scene *s, const sc_site *site, int table, plumb_softbody_d
     const double *v = take_rows(s, site, table, "ring", 1, &desc->ring_count);
     uint32_t *ring = block(s, desc->ring_count, sizeof *ring);
     for (int i = 0; i < desc->ring_count; i++) {
-        ring[i] = index_of(s, site, "ring", v[i], desc->node_count);
+        ring[i] = sc_node_index(s, site, "ring", v[i], desc->node_count);
     }
     desc->ring = ring;
 }
@@ -313,7 +313,7 @@ static void take_pins(scene *s, const sc_site *site, int table, plumb_softbody_d
                      "pin %d must be a node, x, y and, in the frame of a body, its name", i + 1);
         }
         lua_settop(L, at + 1);
-        pins[i].node = index_of(s, site, "pins", v[0], desc->node_count);
+        pins[i].node = sc_node_index(s, site, "pins", v[0], desc->node_count);
         pins[i].point = vec(v + 1);
     }
     desc->pins = pins;
@@ -368,7 +368,7 @@ void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind, int
     *SC_PUSH(s, s->softbodies) = (sc_softbody){ .def = def, .kind = kind, .handle = made };
     plumb_softbody *object = lua_newuserdatauv(s->L, sizeof *object, 0);
     *object = made;
-    luaL_setmetatable(s->L, META);
+    luaL_setmetatable(s->L, SC_META_SOFTBODY);
 }
 
 static int make_one(lua_State *L, sc_softbody_kind kind)
@@ -408,191 +408,6 @@ static int lua_softbody(lua_State *L)
     return make_one(L, SC_SOFTBODY);
 }
 
-// ------------------------------------------------------------------------------------- methods
-
-static plumb_softbody self_of(lua_State *L, const sc_site *site, plumb_softbody_desc *now)
-{
-    scene *s = sc_of(L);
-    const plumb_softbody *object = luaL_checkudata(L, 1, META);
-    if (plumb_softbody_settings(s->world, *object, now) != PLUMB_OK) {
-        sc_raise(s, SCENE_E_NAME, site, NULL, 0, NULL, "the soft body was removed");
-    }
-    sc_work(s, 10);
-    return *object;
-}
-
-static int done(scene *s, const sc_site *site, plumb_result r)
-{
-    if (r != PLUMB_OK) {
-        sc_refused(s, site, NULL, r, "%s", site->construct);
-    }
-    return 0;
-}
-
-// The node that argument 2 names.
-static int node_of(lua_State *L, const sc_site *site, const plumb_softbody_desc *now)
-{
-    const double number = (double)luaL_checknumber(L, 2);
-    return (int)index_of(sc_of(L), site, NULL, number, now->node_count);
-}
-
-// rope:hold(node, x, y): in the world; rope:hold(node, x, y, body): in its frame.
-static int soft_hold(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "hold");
-    plumb_softbody_desc now;
-    plumb_body body = PLUMB_NULL_INIT;
-    const plumb_softbody self = self_of(L, &site, &now);
-    const int node = node_of(L, &site, &now);
-    const double at[2] = { luaL_checknumber(L, 3), luaL_checknumber(L, 4) };
-    if (!lua_isnoneornil(L, 5) && !sc_is_world(L, 5) && !sc_body_at_index(L, 5, &body)) {
-        sc_raise(s, SCENE_E_TYPE, &site, NULL, 4, NULL, "hold takes a node, x, y and a body");
-    }
-    return done(s, &site, plumb_softbody_hold(s->world, self, node, body, vec(at)));
-}
-
-// rope:release(node)
-static int soft_release(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "release");
-    plumb_softbody_desc now;
-    const plumb_softbody self = self_of(L, &site, &now);
-    const int node = node_of(L, &site, &now);
-    bool held = false;
-    for (int i = 0; i < now.pin_count; i++) {
-        held |= now.pins[i].node == (uint32_t)node;
-    }
-    if (!held) {
-        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "nothing holds node %d", node + 1);
-    }
-    return done(s, &site, plumb_softbody_release(s->world, self, node));
-}
-
-// rope:cut(edge)
-static int soft_cut(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "cut");
-    plumb_softbody_desc now;
-    const plumb_softbody self = self_of(L, &site, &now);
-    const double number = (double)luaL_checknumber(L, 2);
-    if (!(number >= 1 && number <= now.edge_count && number == floor(number))) {
-        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "there are edges 1..%d, not %.10g",
-                 now.edge_count, number);
-    }
-    plumb_softbody_edge edge = now.edges[(int)number - 1];
-    edge.flags |= PLUMB_EDGE_TORN;
-    return done(s, &site, plumb_softbody_set_edge(s->world, self, (int)number - 1, &edge));
-}
-
-// balloon:set_gas(pressure [N/m])
-static int soft_set_gas(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "set_gas");
-    plumb_softbody_desc now;
-    const plumb_softbody self = self_of(L, &site, &now);
-    return done(
-        s, &site,
-        plumb_softbody_set_gas(s->world, self, (plumb_real)luaL_checknumber(L, 2), now.ambient));
-}
-
-// rope:node(n): x, y, vx, vy
-static int soft_node(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "node");
-    plumb_softbody_desc now;
-    self_of(L, &site, &now);
-    const plumb_softbody_node *n = &now.nodes[node_of(L, &site, &now)];
-    lua_pushnumber(L, (double)n->position.x);
-    lua_pushnumber(L, (double)n->position.y);
-    lua_pushnumber(L, (double)n->velocity.x);
-    lua_pushnumber(L, (double)n->velocity.y);
-    return 4;
-}
-
-// rope:count(): nodes, edges
-static int soft_count(lua_State *L)
-{
-    const sc_site site = sc_here(sc_of(L), "count");
-    plumb_softbody_desc now;
-    self_of(L, &site, &now);
-    lua_pushinteger(L, now.node_count);
-    lua_pushinteger(L, now.edge_count);
-    return 2;
-}
-
-// rope:measure(): a table
-static int soft_measure(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "measure");
-    plumb_softbody_desc now;
-    plumb_softbody_state m;
-    done(s, &site, plumb_softbody_measure(s->world, self_of(L, &site, &now), &m));
-    sc_work(s, (uint64_t)now.node_count + (uint64_t)now.edge_count);
-    lua_newtable(L);
-    sc_push_field(L, "x", m.center.x);
-    sc_push_field(L, "y", m.center.y);
-    sc_push_field(L, "momentum_x", m.momentum.x);
-    sc_push_field(L, "momentum_y", m.momentum.y);
-    sc_push_field(L, "mass", m.mass);
-    sc_push_field(L, "kinetic", m.kinetic);
-    sc_push_field(L, "elastic", m.elastic);
-    sc_push_field(L, "strain", m.strain);
-    sc_push_field(L, "tension", m.tension);
-    sc_push_field(L, "area", m.area);
-    sc_push_field(L, "pressure", m.pressure);
-    sc_push_field(L, "torn", (plumb_real)m.torn);
-    return 1;
-}
-
-// rope:awake(), wake(), sleep(): as of bodies
-static int soft_awake(lua_State *L)
-{
-    const sc_site site = sc_here(sc_of(L), "awake");
-    plumb_softbody_desc now;
-    lua_pushboolean(L, plumb_softbody_is_awake(sc_of(L)->world, self_of(L, &site, &now)));
-    return 1;
-}
-
-static int soft_wake(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "wake");
-    plumb_softbody_desc now;
-    return done(s, &site, plumb_softbody_wake(s->world, self_of(L, &site, &now)));
-}
-
-static int soft_sleep(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "sleep");
-    plumb_softbody_desc now;
-    return done(s, &site, plumb_softbody_sleep(s->world, self_of(L, &site, &now)));
-}
-
-// rope:remove()
-static int soft_remove(lua_State *L)
-{
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "remove");
-    plumb_softbody_desc now;
-    const plumb_softbody self = self_of(L, &site, &now);
-    for (int i = 0; i < s->softbodies.count; i++) {
-        if (plumb_same(s->softbodies.items[i].handle, self)) {
-            memmove(&s->softbodies.items[i], &s->softbodies.items[i + 1],
-                    (size_t)(s->softbodies.count - 1 - i) * sizeof *s->softbodies.items);
-            s->softbodies.count--;
-            break;
-        }
-    }
-    return done(s, &site, plumb_softbody_destroy(s->world, self));
-}
-
 scene_softbody scene_get_softbody(const scene *s, plumb_softbody handle)
 {
     for (int i = 0; i < s->softbodies.count; i++) {
@@ -606,19 +421,7 @@ scene_softbody scene_get_softbody(const scene *s, plumb_softbody handle)
 
 void sc_open_softbody(lua_State *L)
 {
-    static const luaL_Reg methods[] = { { "hold", soft_hold },       { "release", soft_release },
-                                        { "cut", soft_cut },         { "set_gas", soft_set_gas },
-                                        { "node", soft_node },       { "count", soft_count },
-                                        { "measure", soft_measure }, { "remove", soft_remove },
-                                        { "awake", soft_awake },     { "wake", soft_wake },
-                                        { "sleep", soft_sleep },     { NULL, NULL } };
-    luaL_newmetatable(L, META);
-    lua_newtable(L);
-    luaL_setfuncs(L, methods, 0);
-    lua_setfield(L, -2, "__index");
-    lua_pushliteral(L, "softbody");
-    lua_setfield(L, -2, "__metatable");
-    lua_pop(L, 1);
+    sc_open_softbody_methods(L);
     lua_register(L, "rope", lua_rope);
     lua_register(L, "cloth", lua_cloth);
     lua_register(L, "jelly", lua_jelly);
