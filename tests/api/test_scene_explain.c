@@ -139,12 +139,36 @@ static void the_flow_is_drawn(void **state)
                        "SCENE and --flow are one file");
 }
 
+// However many there are, each once: also who has two shapes, or lies in two fluids, or behind many that cannot move.
+static void all_rows_are_counted(void **state)
+{
+    (void)state;
+    write_text("many.lua",
+               "scene { gravity = { 0, 0 }, duration = 0.2 }\n"
+               "wind { box { 2000, 40 }, flow = { 1, 0 } }\n"
+               "water { name = 'pond', box { 4, 4 }, flow = { 0, 0 } }\n"
+               "for i = 1, 100 do\n"
+               "    body { type = 'static', at = { 2 * i - 300, -10 }, box { 0.5, 0.5 } }\n"
+               "    rope { from = { 2 * i - 300, 10 }, to = { 2 * i - 299, 10 }, nodes = 3 }\n"
+               "end\n"
+               "for i = 1, 300 do\n"
+               "    body { at = { 2 * i - 300, 0 }, circle { 0.3 }, box { 0.9, 0.1 } }\n"
+               "end\n");
+    expect_code("\"$P\" explain many.lua --json", 0);
+    cJSON *all = cJSON_Parse(out);
+    assert_non_null(all);
+    assert_true(number(pass_of(all, "immersion"), "rows") == 300);
+    assert_true(number(pass_of(all, "soft bodies"), "rows") == 300);
+    cJSON_Delete(all);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(json_tells_because_of_whom),
         cmocka_unit_test(what_is_of_no_use_is_told),
         cmocka_unit_test(the_flow_is_drawn),
+        cmocka_unit_test(all_rows_are_counted),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }

@@ -30,8 +30,10 @@ struct engine_stage {
     plumb_contact *contacts;
     plumb_shape *shapes;
     plumb_aabb *cells;
+    plumb_shape *seen;    ///< by one sensor
+    plumb_body *immersed; ///< in fluids, one for each of its shapes in each
     size_t body_room, joint_room, handle_room, name_room, row_room, contact_room, shape_room,
-        cell_room; ///< [B]
+        cell_room, seen_room, immersed_room; ///< [B]
 };
 
 /// Another engine that takes the scene's steps: see scene_options.
@@ -50,7 +52,7 @@ struct engine_session {
     plumb_pass_info *pass_infos;
     engine_overlap *overlaps;
     engine_finding *findings, *idle;
-    struct session_use *uses; ///< by index of the entity: engine_explain.c
+    struct session_use *uses; ///< by index of the entity: engine_unused.c
     uint32_t use_count;
     engine_alarm *alarms;
     size_t expect_room, pass_room, info_room, overlap_room, finding_room, alarm_room,
@@ -139,6 +141,14 @@ int pl_session_alarms(engine_session *session, const engine_alarm **list);
 plumb_world *pl_stage_refreshed(const engine_stage *stage);
 int pl_session_passes(engine_session *session, const engine_pass **list);
 void pl_session_because(engine_session *session, const engine_pass *pass, engine_because *because);
+/// What the shapes of a body are.
+typedef struct engine_shapes_are {
+    bool solid, sensor, fluid, elastic;
+} engine_shapes_are;
+/// They are in the stage's `shapes` then.
+engine_shapes_are pl_stage_look_at_shapes(engine_stage *stage, plumb_body body);
+/// Shapes that overlap a sensor, in the stage's `seen`; how many, -1 when out of memory.
+int pl_stage_seen(engine_stage *stage, plumb_shape sensor);
 bool pl_session_note_use(engine_session *session);
 int pl_session_unused(engine_session *session, const engine_finding **list);
 const char *pl_session_lacks(int index);

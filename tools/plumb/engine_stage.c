@@ -148,6 +148,8 @@ void pl_stage_close(engine_stage *stage)
     free(stage->hues);
     free(stage->rows);
     free(stage->contacts);
+    free(stage->seen);
+    free(stage->immersed);
     free(stage->shapes);
     free(stage->cells);
 }
