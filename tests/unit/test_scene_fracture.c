@@ -55,8 +55,48 @@ static void words_and_json(void **state)
     scene_destroy(t);
 }
 
+// However many shapes and joints come together.
+static const char lump[] =
+    "scene{gravity={0,0}}\n"
+    "body{name='other', circle{0.1}, at={0,1}}\n"
+    "body{name='lump', circle{0.1}, at={0,0}}\n"
+    "for i = 1, 100 do distance{'other', 'lump', at_a={0,1}, at_b={0,0}, name='between'..i} end\n"
+    "for i = 1, 100 do distance{'other', at_a={0,1}, at_b={0,3}, name='rope'..i} end\n"
+    "for i = 1, 300 do body{name='grain'..i, circle{0.1}, at={i,0}} end\n"
+    "at(0.01, function()\n"
+    "  for i = 1, 300 do find('lump'):merge(find('grain'..i)) end\n"
+    "  find('lump'):merge(find('other'))\n"
+    "  score('done', 1)\n"
+    "end)\n";
+
+static void many_come_together(void **state)
+{
+    (void)state;
+    scene *s = load(lump);
+    steps(s, 30);
+    assert_true(score(s, "done") == 1);
+    size_t size;
+    char *text = export_json(s, &size);
+    scene *t = load_as("test.json", text, size, NULL);
+    for (int k = 0; k < 2; ++k) {
+        plumb_world *w = scene_world(k == 0 ? s : t);
+        const plumb_body_span span = plumb_world_bodies(w);
+        int shapes = 0, joints = 0;
+        for (int i = 0; i < span.count; ++i) {
+            shapes += plumb_body_shapes(w, span.body[i], NULL, 0);
+            joints += plumb_body_joints(w, span.body[i], NULL, 0);
+        }
+        assert_int_equal(shapes, 302);
+        assert_int_equal(joints, 100);
+    }
+    free(text);
+    scene_destroy(s);
+    scene_destroy(t);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(words_and_json) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(words_and_json),
+                                        cmocka_unit_test(many_come_together) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,12 +84,30 @@ static void describe(scene *s, const plumb_convex *c, plumb_shape shape, sc_shap
     }
 }
 
+// All of them, on Lua's stack.
+static plumb_shape *shapes_of(scene *s, plumb_body body, int *count)
+{
+    *count = plumb_body_shapes(s->world, body, NULL, 0);
+    luaL_checkstack(s->L, 1, NULL);
+    plumb_shape *all = lua_newuserdatauv(s->L, ((size_t)*count + 1) * sizeof *all, 0);
+    plumb_body_shapes(s->world, body, all, *count);
+    return all;
+}
+
+static plumb_joint *joints_of(scene *s, plumb_body body, int *count)
+{
+    *count = plumb_body_joints(s->world, body, NULL, 0);
+    luaL_checkstack(s->L, 1, NULL);
+    plumb_joint *all = lua_newuserdatauv(s->L, ((size_t)*count + 1) * sizeof *all, 0);
+    plumb_body_joints(s->world, body, all, *count);
+    return all;
+}
+
 // The record of a body whose shapes are others now.
 static void refit(scene *s, sc_body *b)
 {
-    plumb_shape shapes[256];
-    int count = plumb_body_shapes(s->world, b->entity, shapes, 256), pieces = 0;
-    count = count < 256 ? count : 256;
+    int count, pieces = 0;
+    const plumb_shape *shapes = shapes_of(s, b->entity, &count);
     for (int i = 0; i < count; i++) {
         pieces += plumb_shape_piece_count(s->world, shapes[i]);
     }
@@ -103,6 +121,7 @@ static void refit(scene *s, sc_body *b)
             b->def.shape_count++;
         }
     }
+    lua_pop(s->L, 1);
 }
 
 // What the world shares among the parts.
@@ -139,15 +158,16 @@ void sc_body_refit(scene *s, sc_body *b)
 
 static void rejoin(scene *s, plumb_body body)
 {
-    plumb_joint joints[64];
-    const int count = plumb_body_joints(s->world, body, joints, 64);
-    for (int i = 0; i < count && i < 64; i++) {
+    int count;
+    const plumb_joint *joints = joints_of(s, body, &count);
+    for (int i = 0; i < count; i++) {
         sc_joint *j = sc_joint_of(s, joints[i]);
         if (j != NULL) {
             j->def.a.body = plumb_joint_body_a(s->world, joints[i]);
             j->def.b.body = plumb_joint_body_b(s->world, joints[i]);
         }
     }
+    lua_pop(s->L, 1);
 }
 
 // A part of a body becomes one of the scene.
@@ -246,10 +266,9 @@ static int method_merge(lua_State *L)
     sc_body *other = sc_body_of(c.s, *object);
     luaL_argcheck(L, other != NULL, 2, "must not be destroyed");
     luaL_argcheck(L, other != c.body, 2, "must be another body");
-    plumb_joint joints[64];
-    const int count = plumb_body_joints(c.world, other->entity, joints, 64);
-    for (int i = 0; i < count && i < 64;
-         i++) { // those between the two go; their records are ours to forget
+    int count;
+    const plumb_joint *joints = joints_of(c.s, other->entity, &count);
+    for (int i = 0; i < count; i++) { // those between the two go; their records are ours to forget
         const plumb_body a = plumb_joint_body_a(c.world, joints[i]);
         const plumb_body b = plumb_joint_body_b(c.world, joints[i]);
         if (plumb_same(a, c.entity) || plumb_same(b, c.entity)) {
