@@ -12,8 +12,10 @@ local function worm(name, y0, grips, color)
     for i = 1, 2 do
         local x = i == 1 and -long / 2 or long / 2
         local skin = material { friction = 0.5, friction_mix = "min", density = 500 }
-        local foot = body { name = name .. (i == 1 and " hind" or " front"), label = " ", at = {x, y0 + 0.05}, box { 0.18, 0.1 }, material = skin, color = "#5b4636" }
+        local who = name .. (i == 1 and " hind" or " front")
+        local foot = body { name = who, label = " ", at = {x, y0 + 0.05}, box { 0.18, 0.1 }, material = skin, color = "#5b4636" }
         feet[i] = { body = foot, skin = skin }
+        expect { who .. " foot stays on the ground", always = true, body = who, y = {y0 - 0.02, y0 + 0.18} }
         for n = 1, (back:count()) do
             local nx, ny = back:node(n)
             if math.abs(nx - x) < 0.11 and ny < y0 + 0.17 then back:hold(n, nx - x, ny - y0 - 0.05, foot) end
@@ -42,4 +44,3 @@ expect { "its back arches as it draws itself up", at = 4.6, test = function()
     local y = walker:measure().y
     return y > 0.35, y, 0.35
 end }
-expect { "they keep their feet on the ground", always = true, body = "walker*", y = {-0.2, 0.4} }

@@ -29,6 +29,12 @@ static inline size_t pl_air_at(const pl_air_scratch *s, int32_t i, int32_t j)
     return (size_t)(j + PL_AIR_GHOSTS) * s->stride + (size_t)(i + PL_AIR_GHOSTS);
 }
 
+// Of one column with its ghosts.
+static inline size_t pl_air_column_bytes(const pl_air_scratch *s)
+{
+    return (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS) * sizeof(near_real);
+}
+
 //---- cells.c -------------------------------------------------------------------------------------
 
 // Room for the columns. False when out of memory.
@@ -58,7 +64,8 @@ bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *scratch, const plumb_a
 
 //---- carry.c -------------------------------------------------------------------------------------
 
-// How open faces are, how much room cells have: from the grid.
+// How open faces are, how much room cells have: from the grid. Smoke and heat of cells that solids have left since `room` was found
+// come from what is beside them; where a solid is there are none.
 void pl_air_find_room(pl_air_scratch *scratch, const plumb_air_desc *desc);
 // How fast solids fill cells, as they move in the grid.
 void pl_air_find_filled(pl_air_scratch *scratch, const plumb_air_desc *desc);

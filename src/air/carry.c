@@ -115,6 +115,9 @@ static near_real most_of(near_real a, near_real b)
     return a > b ? a : b;
 }
 
+#define FILLED                                                                                     \
+    ((near_real)-1) // in place of room before: now, which none that is filled in this round may see
+
 // Of what is beside it, weighed by the faces between.
 typedef struct beside {
     near_real open, smoke, heat;
@@ -129,14 +132,16 @@ static void add_to(beside *sum, const pl_air_scratch *s, size_t from, near_real 
     }
 }
 
-// What solids have left is filled with what flowed in behind them, while it had no cell to go into. `first`: room before.
-static void fill_left(pl_air_scratch *s)
+// Fills cells that solids have left where they lie beside others. How many are left over; `any`: whether one was filled.
+static uint32_t fill_ring(pl_air_scratch *s, bool *any)
 {
     const size_t way = s->stride;
+    uint32_t left = 0;
+    *any = false;
     for (int32_t j = 0; j < s->columns_y; ++j) {
         for (int32_t i = 0; i < s->columns_x; ++i) {
             const size_t k = pl_air_at(s, i, j);
-            if (s->room[k] == 0 || s->first[k] > 0) {
+            if (s->room[k] == 0 || s->first[k] != 0) {
                 continue;
             }
             beside sum = { 0, 0, 0 };
@@ -147,19 +152,46 @@ static void fill_left(pl_air_scratch *s)
             if (sum.open > 0) {
                 s->smoke[k] = sum.smoke / sum.open;
                 s->heat[k] = sum.heat / sum.open;
+                s->first[k] = FILLED;
+                *any = true;
+            } else {
+                ++left;
             }
+        }
+    }
+    return left;
+}
+
+static void know_filled(pl_air_scratch *s)
+{
+    for (int32_t j = 0; j < s->columns_y; ++j) {
+        const size_t line = pl_air_at(s, 0, j);
+        for (size_t k = line; k < line + (size_t)s->columns_x; ++k) {
+            s->first[k] = s->first[k] == FILLED ? 1 : s->first[k];
         }
     }
 }
 
-static size_t column_bytes(const pl_air_scratch *s)
+// What solids have left is filled with what flowed in behind them, while it had no cell to go into: from its rim inwards.
+// `first`: room before.
+static void fill_left(pl_air_scratch *s, const outside *nearest)
 {
-    return (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS) * sizeof(near_real);
+    const area n = { s->columns_x, s->columns_y };
+    bool any = true;
+    for (uint32_t left = 1; left > 0 && any;) {
+        fill_ghosts(s, s->first, n, nearest);
+        fill_ghosts(s, s->smoke, n, nearest);
+        fill_ghosts(s, s->heat, n, nearest);
+        left = fill_ring(s, &any);
+        if (left > 0 && any) {
+            know_filled(s);
+        }
+    }
 }
 
 void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
 {
-    memcpy(s->first, s->room, column_bytes(s));
+    memcpy(s->first, s->room, pl_air_column_bytes(s));
     const pl_liquid_grid *g = &s->liquid.grid;
     const int32_t nx = s->columns_x, ny = s->columns_y;
     const bool wraps_x = d->left == PLUMB_AIR_PERIODIC, wraps_y = d->bottom == PLUMB_AIR_PERIODIC;
@@ -173,6 +205,7 @@ void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
             s->open_v[k] = i < nx ? g->open_v[c] : 0;
             s->room[k] = 0;
             if (!inside || g->row[c] == 0) {
+                s->smoke[k] = s->heat[k] = 0;
                 continue;
             }
             const uint32_t right = g->right[c], up = g->up[c];
@@ -181,8 +214,8 @@ void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
             s->room[k] = most_of(1 - g->cover[c], open);
         }
     }
-    fill_left(s);
     const outside nearest = outside_of(d);
+    fill_left(s, &nearest);
     fill_ghosts(s, s->room, (area){ nx, ny }, &nearest);
 }
 

@@ -63,6 +63,12 @@ bool pl_air_make_columns(pl_memory *memory, pl_air_scratch *s, pl_air_extent ext
     return true;
 }
 
+// Steps leave nothing in a cell without room: what is there has been set, and stays if the solid has gone.
+static near_real room_before(const plumb_air_cell *cell)
+{
+    return cell->smoke != 0 || cell->heat != 0 ? 1 : (near_real)cell->room;
+}
+
 void pl_air_load(pl_air_scratch *s, const plumb_air_cell *cells, double fastest)
 {
     for (int32_t j = 0; j <= s->columns_y; ++j) {
@@ -73,7 +79,7 @@ void pl_air_load(pl_air_scratch *s, const plumb_air_cell *cells, double fastest)
             s->v[k] = (near_real)pl_liquid_held((double)cells->v, fastest);
             s->smoke[k] = (near_real)cells->smoke;
             s->heat[k] = (near_real)cells->heat;
-            s->room[k] = (near_real)cells->room;
+            s->room[k] = i < s->columns_x && j < s->columns_y ? room_before(cells) : 0;
         }
     }
 }
@@ -85,8 +91,9 @@ void pl_air_store(const pl_air_scratch *s, plumb_air_cell *cells)
         for (int32_t i = 0; i <= s->columns_x; ++i, ++cells) {
             const size_t k = line + (size_t)i;
             const bool has_u = j < s->columns_y, has_v = i < s->columns_x;
-            const double smoke = has_u && has_v ? (double)s->smoke[k] : 0;
-            const double heat = has_u && has_v ? (double)s->heat[k] : 0;
+            const bool is_cell = has_u && has_v && s->room[k] > 0;
+            const double smoke = is_cell ? (double)s->smoke[k] : 0;
+            const double heat = is_cell ? (double)s->heat[k] : 0;
             cells->u = has_u ? (real)pl_liquid_held((double)s->u[k], PL_AIR_SPEED) : 0;
             cells->v = has_v ? (real)pl_liquid_held((double)s->v[k], PL_AIR_SPEED) : 0;
             cells->smoke = (real)pl_liquid_held(smoke > 0 ? smoke : 0, PL_AIR_MOST);

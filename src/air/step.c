@@ -10,7 +10,7 @@
 // of two solutions of the same matrix. Smoke and heat are carried by the velocities of the middle. A projection takes bodies along,
 // and is reflected for them, too: the impulse of the first counts twice.
 //
-// Reads: cells, poses, velocities, masses, pieces. Writes: forces, cells. Cost: see DECISIONS.md.
+// Reads: cells, supports, gravity, poses, velocities, masses, forces, pieces. Writes: forces, cells, supports. Cost: see DECISIONS.md.
 #include "air/air.h"
 #include "schema/passes.h"
 #include "world/rows.h"
@@ -131,7 +131,7 @@ static void reflect_bodies(pl_liquid_grid *g, double (*gain)[3])
 
 static void reflect(pl_air_scratch *s)
 {
-    const size_t count = (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS);
+    const size_t count = pl_air_column_bytes(s) / sizeof(near_real);
     for (size_t k = 0; k < count; ++k) {
         s->u[k] += s->open_u[k] > 0 ? s->u[k] - s->now[k] : 0;
         s->v[k] += s->open_v[k] > 0 ? s->v[k] - s->now_v[k] : 0;
@@ -152,8 +152,7 @@ static bool run_half(const part *p, double dt)
     pl_air_scratch *s = p->s;
     pl_liquid_grid *g = &s->liquid.grid;
     pl_memory *memory = &p->world->memory;
-    const size_t bytes =
-        (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS) * sizeof(near_real);
+    const size_t bytes = pl_air_column_bytes(s);
     const double amount = (double)p->d->viscosity * dt / (p->h * p->h);
     pl_air_carry_velocities(s, p->d, p->world->tasks, dt, p->h);
     pl_air_drive(p->world, s, dt);
@@ -262,21 +261,6 @@ static void hold_newcomers(const plumb_world *world, pl_liquid_grid *g)
     }
 }
 
-// What holds them in their first step is taken to have done so before.
-static void trust_newcomers(const pl_liquid_scratch *scratch)
-{
-    const pl_liquid_grid *g = &scratch->grid;
-    pl_liquid_support *note = scratch->supports.data;
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        if (g->bodies[i].moves) {
-            if (!g->bodies[i].known) {
-                memcpy(note->before, note->last, sizeof note->before);
-            }
-            ++note;
-        }
-    }
-}
-
 //---- the passes ----------------------------------------------------------------------------------
 
 static bool make_scratch(plumb_world *world)
@@ -347,7 +331,6 @@ plumb_result pl_run_air_motion(plumb_world *world, plumb_real dt)
     pl_air *air = &world->air;
     pl_liquid_scratch *scratch = &air->scratch->liquid;
     const uint32_t notes = pl_liquid_note_supports(world, &air->supports, scratch, dt);
-    trust_newcomers(scratch);
     pl_liquid_take_supports(&air->supports, scratch, notes);
     memcpy(air->cells.data, air->scratch->moved.data, air->cell_count * sizeof(plumb_air_cell));
     scratch->push_count = 0;

@@ -352,6 +352,23 @@ static plumb_result check_cell(const plumb_world *world, const char *fn, const p
     return pl_check_range(world, fn, "room", c->room, 0, 1);
 }
 
+// All of them, where nobody thought of it.
+static void give_room(pl_air *air)
+{
+    plumb_air_cell *cells = pl_air_items(air);
+    const pl_air_extent box = pl_air_extent_of(pl_air_desc(air));
+    for (uint32_t i = 0; i < air->cell_count; ++i) {
+        if (cells[i].room > 0) {
+            return;
+        }
+    }
+    for (int32_t j = 0; j < box.rows; ++j) {
+        for (int32_t i = 0; i < box.columns; ++i) {
+            cells[j * (box.columns + 1) + i].room = 1;
+        }
+    }
+}
+
 plumb_result plumb_air_set_cells(plumb_world *world, const plumb_air_cell *cells, int count)
 {
     PL_TRY(check_air(world, __func__));
@@ -366,6 +383,7 @@ plumb_result plumb_air_set_cells(plumb_world *world, const plumb_air_cell *cells
         PL_TRY(check_cell(world, __func__, &cells[i]));
     }
     memmove(air->cells.data, cells, air->cell_count * sizeof *cells);
+    give_room(air);
     return PLUMB_OK;
 }
 

@@ -447,8 +447,8 @@ void pl_liquid_take_supports(pl_liquid_supports *supports, const pl_liquid_scrat
 // Room for what bodies and soft bodies of the grid will have to tell. False when out of memory.
 bool pl_liquid_reserve_touches(pl_memory *memory, pl_liquid *liquid);
 bool pl_liquid_softbody_is_wet(const pl_liquid_grid *grid, const pl_liquid_softbody *body);
-// Contacts and ends of the step by its `notes`, before these take the place of those of the one before.
-void pl_liquid_tell_touches(plumb_world *world, uint32_t notes, double dt);
+// Contacts and ends of the step by what was noted of it, before that takes the place of what was of the one before.
+void pl_liquid_tell_touches(plumb_world *world, double dt);
 
 //---- step.c --------------------------------------------------------------------------------------
 

@@ -225,7 +225,7 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
 {
     pl_liquid *liquid = &world->liquid;
     const uint32_t notes = pl_liquid_note_supports(world, &liquid->supports, liquid->scratch, dt);
-    pl_liquid_tell_touches(world, notes, (double)dt);
+    pl_liquid_tell_touches(world, (double)dt);
     pl_liquid_take_supports(&liquid->supports, liquid->scratch, notes);
     pl_soft_drop_pushes(world);
     if (liquid->count > 0) {

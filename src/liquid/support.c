@@ -78,13 +78,13 @@ static double force_of(double held, double more, double inverse, double dt)
     return inverse > 0 ? pl_liquid_held(held + more / (inverse * dt), PL_LIQUID_FORCE) : 0;
 }
 
-static pl_liquid_support note(const pl_liquid_supports *supports, plumb_entity entity)
+// Of a newcomer what was expected is all that is known of before.
+static pl_liquid_support note(const pl_liquid_supports *supports, plumb_entity entity,
+                              const double held[3])
 {
     const pl_liquid_support *old = pl_liquid_support_of(supports, key_of(entity));
     pl_liquid_support s = { .key = key_of(entity) };
-    if (old != NULL) {
-        memcpy(s.before, old->last, sizeof s.before);
-    }
+    memcpy(s.before, old != NULL ? old->last : held, sizeof s.before);
     return s;
 }
 
@@ -93,7 +93,7 @@ static pl_liquid_support note_body(const plumb_world *world, const pl_liquid_sup
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t row = pl_body_row(world, body->body);
-    pl_liquid_support s = note(supports, body->body.entity);
+    pl_liquid_support s = note(supports, body->body.entity, body->held);
     s.last[0] = force_of(body->held[0], (double)b->vx[row] - body->vx, body->inv_mass_x, dt);
     s.last[1] = force_of(body->held[1], (double)b->vy[row] - body->vy, body->inv_mass_y, dt);
     s.last[2] = force_of(body->held[2], (double)b->w[row] - body->w, body->inv_inertia, dt);
@@ -105,7 +105,7 @@ static pl_liquid_support note_softbody(const pl_liquid_supports *supports, const
                                        const pl_liquid_softbody *body, double dt)
 {
     const double turns = body->inertia > 0 ? 1 / body->inertia : 0;
-    pl_liquid_support s = note(supports, body->entity.entity);
+    pl_liquid_support s = note(supports, body->entity.entity, body->held);
     double found[3], now[3];
     pl_liquid_soft_motion(g, body, false, found);
     pl_liquid_soft_motion(g, body, true, now);

@@ -83,7 +83,7 @@ static void tell_ends(pl_liquid *liquid, const pl_keyed *order, uint32_t count)
     }
 }
 
-void pl_liquid_tell_touches(plumb_world *world, uint32_t notes, double dt)
+void pl_liquid_tell_touches(plumb_world *world, double dt)
 {
     pl_liquid *liquid = &world->liquid;
     const pl_liquid_grid *g = &liquid->scratch->grid;
@@ -97,6 +97,6 @@ void pl_liquid_tell_touches(plumb_world *world, uint32_t notes, double dt)
     for (uint32_t i = 0; i < g->softbody_count; ++i) {
         touches[count++] = soft_contact_of(g, &g->softbodies[i], dt);
     }
-    tell_contacts(liquid, liquid->scratch->order.data, notes);
-    tell_ends(liquid, liquid->scratch->order.data, notes);
+    tell_contacts(liquid, liquid->scratch->order.data, count);
+    tell_ends(liquid, liquid->scratch->order.data, count);
 }

@@ -186,7 +186,7 @@
     X("liquid motion",     FINISH,      IF(pl_want_liquid),          ONCE(pl_run_liquid_motion),                             ONCE,           \
       "soft bodies, velocities, masses", "liquid", ONE)                                                                                      \
     X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
-      "", "air", ONE)                                                                                                                        \
+      "velocities, masses", "air", ONE)                                                                                                      \
     X("wave motion",         FINISH,      IF(pl_want_waves),            ONCE(pl_run_wave_motion),                                ONCE,              \
       "poses, pieces, materials", "waves", ONE)                                                                                                       \
     X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \

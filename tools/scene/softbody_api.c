@@ -92,17 +92,6 @@ static int soft_cut(lua_State *L)
     return done(s, &site, plumb_softbody_set_edge(s->world, self, number, &edge));
 }
 
-// Argument 3: the library takes 0 for as long as it is now.
-static double length_of(lua_State *L, const sc_site *site)
-{
-    const double length = (double)luaL_checknumber(L, 3);
-    if (!(length > 0)) {
-        sc_raise(sc_of(L), SCENE_E_RANGE, site, NULL, 2, NULL,
-                 "a length at rest must be above 0 m, not %.10g", length);
-    }
-    return length;
-}
-
 // rope:set_rest(edge, length [m]): a muscle, a winch
 static int soft_set_rest(lua_State *L)
 {
@@ -112,7 +101,7 @@ static int soft_set_rest(lua_State *L)
     const plumb_softbody self = self_of(L, &site, &now);
     const int number = edge_of(L, &site, &now);
     plumb_softbody_edge edge = now.edges[number];
-    edge.length = (plumb_real)length_of(L, &site);
+    edge.length = (plumb_real)luaL_checknumber(L, 3);
     return done(s, &site, plumb_softbody_set_edge(s->world, self, number, &edge));
 }
 

@@ -19,7 +19,7 @@
     X(across_x) X(across_y)             /* fluxes of what is being carried */                         \
     X(flow_x) X(flow_y)                 /* what goes through its sides of that */                     \
     X(share)                            /* 1 over its room */                                         \
-    X(first) X(second)                  /* what is carried, in the midst of that */
+    X(first) X(second)                  /* what is carried, in the midst of that; first: room before, too */
 // clang-format on
 
 // What a step of the air needs besides its state: made when it first flows.
