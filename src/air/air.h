@@ -29,6 +29,11 @@ static inline size_t pl_air_at(const pl_air_scratch *s, int32_t i, int32_t j)
     return (size_t)(j + PL_AIR_GHOSTS) * s->stride + (size_t)(i + PL_AIR_GHOSTS);
 }
 
+static inline near_real pl_air_most_of(near_real a, near_real b)
+{
+    return a > b ? a : b;
+}
+
 // Of one column with its ghosts.
 static inline size_t pl_air_column_bytes(const pl_air_scratch *s)
 {
@@ -62,7 +67,30 @@ bool pl_air_make_grid(pl_memory *memory, pl_air_scratch *scratch, const plumb_ai
 // Behind pl_liquid_plan: what lies across periodic sides. False when out of memory.
 bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
 
-//---- carry.c -------------------------------------------------------------------------------------
+//---- ghosts.c ------------------------------------------------------------------------------------
+
+typedef struct pl_air_area {
+    int32_t columns, lines; // of what there is from (0, 0)
+} pl_air_area;
+
+// What lies beyond sides, of values: those at the opposite side; `in`, where air blows in, else the nearest.
+typedef struct pl_air_outside {
+    bool periodic_x, periodic_y;
+    near_real left, right, bottom, top; // where the flux there comes in
+    bool gives[4];                      // else the nearest
+} pl_air_outside;
+
+// Of a column that has so much.
+void pl_air_fill_ghosts(const pl_air_scratch *scratch, near_real *column, pl_air_area area,
+                        const pl_air_outside *outside);
+pl_air_outside pl_air_outside_of(const plumb_air_desc *desc);
+// Nothing is carried in from outside.
+pl_air_outside pl_air_outside_of_scalars(const plumb_air_desc *desc);
+// What blows in has the velocity that it has outside, what comes in at an open side none: so it is sucked in by half the square
+// of its speed, as Bernoulli says, and brings no energy.
+pl_air_outside pl_air_outside_of_velocity(const plumb_air_desc *desc, near_real flow);
+
+//---- room.c --------------------------------------------------------------------------------------
 
 // How open faces are, how much room cells have: from the grid. Smoke and heat of cells that solids have left since `room` was found
 // come from what is beside them; where a solid is there are none.
@@ -71,6 +99,9 @@ void pl_air_find_room(pl_air_scratch *scratch, const plumb_air_desc *desc);
 void pl_air_find_filled(pl_air_scratch *scratch, const plumb_air_desc *desc);
 // Fluxes of the velocities as they are.
 void pl_air_find_fluxes(pl_air_scratch *scratch, const plumb_air_desc *desc);
+
+//---- carry.c -------------------------------------------------------------------------------------
+
 // Carries with the fluxes for dt [s]; cells are h [m].
 void pl_air_carry_velocities(pl_air_scratch *scratch, const plumb_air_desc *desc, pl_tasks *tasks,
                              double dt, double h);
