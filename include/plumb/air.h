@@ -66,8 +66,8 @@ typedef struct plumb_air_cell {
     plumb_real v;     ///< [m/s] upwards (to larger y), in the middle of its side at the lesser y
     plumb_real smoke; ///< 0 or more: an amount for the eye. It weighs nothing
     plumb_real heat;  ///< [K] warmer than `temperature`
-    /// 0..1 so much of it is no solid, as far as the last step saw it. A cell that has none has neither smoke nor heat but what is set; once its solid
-    /// has gone, those of what is beside it.
+    /// 0..1 so much of it is no solid, as far as the last step saw it. A cell that has none has neither smoke nor heat but
+    /// what is set; once its solid has gone, those of what is beside it.
     plumb_real room;
 } plumb_air_cell;
 
@@ -121,8 +121,9 @@ typedef void plumb_air_fill_fn(void *context, plumb_vec2 at, plumb_air_sample *s
 /// Errors: E_NULL, E_STATE (there is no air), E_LOCKED.
 PLUMB_API plumb_result plumb_air_fill(plumb_world *world, plumb_air_fill_fn *fill, void *context);
 
-/// Sets all cells of the box as plumb_air_cells has them. If `room` is 0 in all of them, it becomes 1. Errors: E_NULL, E_STATE (there is no air), E_RANGE (not as many as
-/// there are; a number beyond what it may be), E_NOT_FINITE, E_LOCKED; then they are as before.
+/// Sets all cells of the box as plumb_air_cells has them. If `room` is 0 in all of them, it becomes 1. Errors: E_NULL, E_STATE
+/// (there is no air), E_RANGE (not as many as there are; a number beyond what it may be), E_NOT_FINITE, E_LOCKED; then
+/// they are as before.
 PLUMB_API plumb_result plumb_air_set_cells(plumb_world *world, const plumb_air_cell *cells,
                                            int count);
 /// The box with its cells. Errors: E_NULL, E_STATE (there is no air).

@@ -13,7 +13,6 @@
 #include "air/air.h"
 
 #include <math.h>
-#include <string.h>
 
 #define MOST_MOVES  0.75 // of a cell, in a part, by velocities: beyond 0.87 it would not be stable
 #define MOST_LEAVES 0.5  // likewise of smoke: beyond that there might be less than none

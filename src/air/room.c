@@ -84,6 +84,7 @@ static void fill_left(pl_air_scratch *s, const pl_air_outside *nearest)
 
 void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
 {
+    bool any_left = false;
     memcpy(s->first, s->room, pl_air_column_bytes(s));
     const pl_liquid_grid *g = &s->liquid.grid;
     const int32_t nx = s->columns_x, ny = s->columns_y;
@@ -105,10 +106,13 @@ void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
             const near_real open = pl_air_most_of(pl_air_most_of(g->open_u[c], g->open_u[right]),
                                                   pl_air_most_of(g->open_v[c], g->open_v[up]));
             s->room[k] = pl_air_most_of(1 - g->cover[c], open);
+            any_left |= s->room[k] > 0 && s->first[k] == 0;
         }
     }
     const pl_air_outside nearest = pl_air_outside_of(d);
-    fill_left(s, &nearest);
+    if (any_left) {
+        fill_left(s, &nearest);
+    }
     pl_air_fill_ghosts(s, s->room, (pl_air_area){ nx, ny }, &nearest);
 }
 

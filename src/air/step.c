@@ -240,27 +240,6 @@ static bool run_part(plumb_world *world, double dt)
     return move_solids(world, dt);
 }
 
-//---- what holds bodies ---------------------------------------------------------------------------
-
-// Whoever was not there before is expected to be held, as what lies on the ground is.
-static void hold_newcomers(const plumb_world *world, pl_liquid_grid *g)
-{
-    const pl_bodies *b = &world->bodies;
-    for (uint32_t i = 0; i < g->body_count; ++i) {
-        pl_liquid_body *body = &g->bodies[i];
-        if (!body->moves || body->known) {
-            continue;
-        }
-        const uint32_t row = pl_body_row(world, body->body);
-        const double scale = (double)b->gravity_scale[row];
-        const double x = body->inv_mass_x > 0 ? scale / body->inv_mass_x : 0;
-        const double y = body->inv_mass_y > 0 ? scale / body->inv_mass_y : 0;
-        body->held[0] = -(x * (double)world->gravity.x + (double)b->fx[row]);
-        body->held[1] = -(y * (double)world->gravity.y + (double)b->fy[row]);
-        body->held[2] = -(double)b->torque[row];
-    }
-}
-
 //---- the passes ----------------------------------------------------------------------------------
 
 static bool make_scratch(plumb_world *world)
@@ -304,7 +283,7 @@ plumb_result pl_run_air(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     memcpy(s->moved.data, air->cells.data, bytes);
-    hold_newcomers(world, &s->liquid.grid);
+    pl_liquid_hold_newcomers(world, &s->liquid.grid);
     if (is_still(world)) {
         pl_liquid_pull_bodies(world, &s->liquid.grid, dt);
         return PLUMB_OK;

@@ -154,6 +154,23 @@ static plumb_result check_air(const plumb_world *world, const char *fn)
                          "the world has no air; it must be made with plumb_air_create");
 }
 
+// All cells are free, where none is said to be.
+static void give_room(pl_air *air)
+{
+    plumb_air_cell *cells = pl_air_items(air);
+    const pl_air_extent box = pl_air_extent_of(pl_air_desc(air));
+    for (uint32_t i = 0; i < air->cell_count; ++i) {
+        if (cells[i].room > 0) {
+            return;
+        }
+    }
+    for (int32_t j = 0; j < box.rows; ++j) {
+        for (int32_t i = 0; i < box.columns; ++i) {
+            cells[j * (box.columns + 1) + i].room = 1;
+        }
+    }
+}
+
 plumb_result plumb_air_create(plumb_world *world, const plumb_air_desc *desc)
 {
     PL_TRY(pl_check_world(world));
@@ -178,13 +195,9 @@ plumb_result plumb_air_create(plumb_world *world, const plumb_air_desc *desc)
     }
     memcpy(air->settings.data, &d, sizeof d);
     memset(air->cells.data, 0, count * sizeof(plumb_air_cell));
-    for (int32_t j = 0; j < box.rows; ++j) {
-        for (int32_t i = 0; i < box.columns; ++i) {
-            pl_air_items(air)[j * (box.columns + 1) + i].room = 1;
-        }
-    }
     air->settings_count = 1;
     air->cell_count = count;
+    give_room(air);
     world->schedule_dirty = true;
     return PLUMB_OK;
 }
@@ -350,23 +363,6 @@ static plumb_result check_cell(const plumb_world *world, const char *fn, const p
     PL_TRY(pl_check_range(world, fn, "smoke", c->smoke, 0, MOST_AMOUNT));
     PL_TRY(pl_check_range(world, fn, "heat", c->heat, -MOST_AMOUNT, MOST_AMOUNT));
     return pl_check_range(world, fn, "room", c->room, 0, 1);
-}
-
-// All of them, where nobody thought of it.
-static void give_room(pl_air *air)
-{
-    plumb_air_cell *cells = pl_air_items(air);
-    const pl_air_extent box = pl_air_extent_of(pl_air_desc(air));
-    for (uint32_t i = 0; i < air->cell_count; ++i) {
-        if (cells[i].room > 0) {
-            return;
-        }
-    }
-    for (int32_t j = 0; j < box.rows; ++j) {
-        for (int32_t i = 0; i < box.columns; ++i) {
-            cells[j * (box.columns + 1) + i].room = 1;
-        }
-    }
 }
 
 plumb_result plumb_air_set_cells(plumb_world *world, const plumb_air_cell *cells, int count)

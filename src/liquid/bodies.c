@@ -180,6 +180,24 @@ void pl_liquid_pull_bodies(const plumb_world *world, pl_liquid_grid *g, real dt)
     }
 }
 
+void pl_liquid_hold_newcomers(const plumb_world *world, pl_liquid_grid *g)
+{
+    const pl_bodies *b = &world->bodies;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        pl_liquid_body *body = &g->bodies[i];
+        if (!body->moves || body->known) {
+            continue;
+        }
+        const uint32_t row = pl_body_row(world, body->body);
+        const double scale = (double)b->gravity_scale[row];
+        const double x = body->inv_mass_x > 0 ? scale / body->inv_mass_x : 0;
+        const double y = body->inv_mass_y > 0 ? scale / body->inv_mass_y : 0;
+        body->held[0] = -(x * (double)world->gravity.x + (double)b->fx[row]);
+        body->held[1] = -(y * (double)world->gravity.y + (double)b->fy[row]);
+        body->held[2] = -(double)b->torque[row];
+    }
+}
+
 static double least(double a, double b)
 {
     return a < b ? a : b;

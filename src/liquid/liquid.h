@@ -370,6 +370,8 @@ bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_li
                            real dt);
 // Gravity and forces on bodies in dt.
 void pl_liquid_pull_bodies(const plumb_world *world, pl_liquid_grid *grid, real dt);
+// Behind pl_liquid_recall_supports: whoever was not there before is expected to be held against these, as what lies on the ground is.
+void pl_liquid_hold_newcomers(const plumb_world *world, pl_liquid_grid *grid);
 // The box of a solid and the normals of its sides, from its corners.
 void pl_liquid_find_reach(pl_liquid_solid *solid);
 // Bodies go on by their velocities for dt, and solids with them.
