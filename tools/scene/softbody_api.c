@@ -68,54 +68,59 @@ static int soft_release(lua_State *L)
     return done(s, &site, plumb_softbody_release(s->world, self, node));
 }
 
-// The edge that argument 2 names.
-static int edge_of(lua_State *L, const sc_site *site, const plumb_softbody_desc *now)
+// A soft body, and the edge of it that argument 2 names.
+typedef struct named_edge {
+    sc_site site;
+    plumb_softbody self;
+    int number;
+    plumb_softbody_edge edge;
+} named_edge;
+
+static named_edge edge_of(lua_State *L, const char *method)
 {
+    named_edge e = { .site = sc_here(sc_of(L), method) };
+    plumb_softbody_desc now;
+    e.self = self_of(L, &e.site, &now);
     const double number = (double)luaL_checknumber(L, 2);
-    if (!(number >= 1 && number <= now->edge_count && number == floor(number))) {
-        sc_raise(sc_of(L), SCENE_E_RANGE, site, NULL, 1, NULL, "there are edges 1..%d, not %.10g",
-                 now->edge_count, number);
+    if (!(number >= 1 && number <= now.edge_count && number == floor(number))) {
+        sc_raise(sc_of(L), SCENE_E_RANGE, &e.site, NULL, 1, NULL,
+                 "there are edges 1..%d, not %.10g", now.edge_count, number);
     }
-    return (int)number - 1;
+    e.number = (int)number - 1;
+    e.edge = now.edges[e.number];
+    return e;
+}
+
+static int change_edge(lua_State *L, const named_edge *e)
+{
+    scene *s = sc_of(L);
+    return done(s, &e->site, plumb_softbody_set_edge(s->world, e->self, e->number, &e->edge));
 }
 
 // rope:cut(edge)
 static int soft_cut(lua_State *L)
 {
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "cut");
-    plumb_softbody_desc now;
-    const plumb_softbody self = self_of(L, &site, &now);
-    const int number = edge_of(L, &site, &now);
-    plumb_softbody_edge edge = now.edges[number];
-    edge.flags |= PLUMB_EDGE_TORN;
-    return done(s, &site, plumb_softbody_set_edge(s->world, self, number, &edge));
+    named_edge e = edge_of(L, "cut");
+    e.edge.flags |= PLUMB_EDGE_TORN;
+    return change_edge(L, &e);
 }
 
 // rope:set_rest(edge, length [m]): a muscle, a winch
 static int soft_set_rest(lua_State *L)
 {
-    scene *s = sc_of(L);
-    const sc_site site = sc_here(s, "set_rest");
-    plumb_softbody_desc now;
-    const plumb_softbody self = self_of(L, &site, &now);
-    const int number = edge_of(L, &site, &now);
-    plumb_softbody_edge edge = now.edges[number];
-    edge.length = (plumb_real)luaL_checknumber(L, 3);
-    return done(s, &site, plumb_softbody_set_edge(s->world, self, number, &edge));
+    named_edge e = edge_of(L, "set_rest");
+    e.edge.length = (plumb_real)luaL_checknumber(L, 3);
+    return change_edge(L, &e);
 }
 
 // rope:edge(n): its two nodes, its length at rest [m], whether it is torn
 static int soft_edge(lua_State *L)
 {
-    const sc_site site = sc_here(sc_of(L), "edge");
-    plumb_softbody_desc now;
-    self_of(L, &site, &now);
-    const plumb_softbody_edge *e = &now.edges[edge_of(L, &site, &now)];
-    lua_pushinteger(L, (lua_Integer)e->a + 1);
-    lua_pushinteger(L, (lua_Integer)e->b + 1);
-    lua_pushnumber(L, (double)e->length);
-    lua_pushboolean(L, (e->flags & PLUMB_EDGE_TORN) != 0);
+    const named_edge e = edge_of(L, "edge");
+    lua_pushinteger(L, (lua_Integer)e.edge.a + 1);
+    lua_pushinteger(L, (lua_Integer)e.edge.b + 1);
+    lua_pushnumber(L, (double)e.edge.length);
+    lua_pushboolean(L, (e.edge.flags & PLUMB_EDGE_TORN) != 0);
     return 4;
 }
 
