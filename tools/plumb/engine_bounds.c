@@ -11,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SOFT_MOST = 64 /**< soft bodies that are looked at */ };
-
 /// Boxes of what moves.
 struct crowd {
     plumb_aabb *boxes;
@@ -85,7 +83,9 @@ void pl_stage_bounds(const engine_stage *stage, double reach, engine_box *moving
 {
     const engine_box empty = { DBL_MAX, DBL_MAX, -DBL_MAX, -DBL_MAX };
     const int count = pl_stage_body_count(stage);
-    const size_t room = (size_t)count + SOFT_MOST;
+    int soft_count;
+    plumb_softbody *soft = pl_stage_softbodies(stage, &soft_count);
+    const size_t room = (size_t)count + (size_t)soft_count + 1;
     struct crowd c = { malloc(room * sizeof *c.boxes), malloc(room * sizeof *c.sorted), 0 };
 
     *moving = *fixed = empty;
@@ -102,14 +102,13 @@ void pl_stage_bounds(const engine_stage *stage, double reach, engine_box *moving
             add_mover(&c, b, moving);
         }
     }
-    plumb_softbody soft[SOFT_MOST];
-    const int soft_count = plumb_world_softbodies(stage->world, soft, SOFT_MOST);
-    for (int i = 0; i < soft_count && i < SOFT_MOST; i++) {
+    for (int i = 0; soft != NULL && i < soft_count; i++) {
         add_mover(&c, pl_stage_softbody_box(stage, soft[i]), moving);
     }
     if (c.count > 0) {
         add_bulk(&c, reach, moving);
     }
+    free(soft);
     free(c.boxes);
     free(c.sorted);
     // Of a world that wraps around all is worth seeing, and nothing twice.

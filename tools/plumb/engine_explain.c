@@ -336,16 +336,16 @@ static bool is_once(const engine_pass *pass)
 }
 
 /// Of all soft bodies that are awake; -1 when out of memory.
-static int soft_nodes(const plumb_world *world)
+static int soft_nodes(const engine_stage *stage)
 {
-    const int count = plumb_world_softbodies(world, NULL, 0);
-    plumb_softbody *all = malloc(((size_t)count + 1) * sizeof *all);
+    int count;
+    plumb_softbody *all = pl_stage_softbodies(stage, &count);
     plumb_softbody_desc d;
     int nodes = all != NULL ? 0 : -1;
-    const int found = all != NULL ? plumb_world_softbodies(world, all, count) : 0;
-    for (int i = 0; i < found && i < count; i++) {
-        nodes +=
-            plumb_softbody_settings(world, all[i], &d) == PLUMB_OK && !d.asleep ? d.node_count : 0;
+    for (int i = 0; all != NULL && i < count; i++) {
+        nodes += plumb_softbody_settings(stage->world, all[i], &d) == PLUMB_OK && !d.asleep
+                     ? d.node_count
+                     : 0;
     }
     free(all);
     return nodes;
@@ -393,7 +393,7 @@ void pl_session_because(engine_session *session, const engine_pass *pass, engine
             plumb_air_cells(stage->world, &box) == PLUMB_OK ? box.columns * box.rows : 0;
         break;
     case NODES:
-        because->rows = soft_nodes(stage->world);
+        because->rows = soft_nodes(stage);
         break;
     case PARTICLES:
         (void)plumb_liquid_particles(stage->world, &particles);

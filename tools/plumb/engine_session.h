@@ -118,6 +118,8 @@ void pl_stage_add_dipole(const engine_stage *stage, plumb_body body, int count,
                          struct render_frame *frame);
 bool pl_stage_add_light(const engine_stage *stage, struct render_frame *frame);
 /// Adds all soft bodies to a draw list. False when out of memory.
+/// All of them, for the caller to free; null when out of memory, but not for none.
+plumb_softbody *pl_stage_softbodies(const engine_stage *stage, int *count);
 bool pl_stage_add_softbodies(const engine_stage *stage, struct render_frame *frame);
 void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes, int count,
                            struct render_frame *frame);

@@ -205,17 +205,21 @@ plumb_aabb pl_stage_softbody_box(const engine_stage *stage, plumb_softbody body)
     return box;
 }
 
+plumb_softbody *pl_stage_softbodies(const engine_stage *stage, int *count)
+{
+    *count = plumb_world_softbodies(stage->world, NULL, 0);
+    plumb_softbody *all = malloc(((size_t)*count + 1) * sizeof *all);
+    if (all != NULL) {
+        plumb_world_softbodies(stage->world, all, *count);
+    }
+    return all;
+}
+
 bool pl_stage_add_softbodies(const engine_stage *stage, struct render_frame *frame)
 {
-    const int count = plumb_world_softbodies(stage->world, NULL, 0);
-    if (count == 0) {
-        return true;
-    }
-    plumb_softbody *all = malloc((size_t)count * sizeof *all);
+    int count;
+    plumb_softbody *all = pl_stage_softbodies(stage, &count);
     bool good = all != NULL;
-    if (good) {
-        plumb_world_softbodies(stage->world, all, count);
-    }
     for (int i = 0; i < count && good; i++) {
         good = add_one(stage, all[i], i, frame);
     }
