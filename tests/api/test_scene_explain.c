@@ -162,6 +162,27 @@ static void all_rows_are_counted(void **state)
     cJSON_Delete(all);
 }
 
+// The camera looks at all that moves, whichever comes first: pictures are the same.
+static void all_soft_bodies_are_in_the_picture(void **state)
+{
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "scene { title = 'ropes', gravity = { 0, 0 } }\n"
+                 "for i = 0, 127 do\n"
+                 "    local k = %s\n"
+                 "    local x = k %% 64 + (k < 64 and 0 or 200)\n"
+                 "    rope { from = { x, 0 }, to = { x + 0.5, 0 }, nodes = 2, color = '#804020' }\n"
+                 "end\n",
+                 turned == 0 ? "i" : "127 - i");
+        write_text(turned == 0 ? "to.lua" : "fro.lua", text);
+    }
+    expect_code(
+        "\"$P\" render to.lua -o to.png && \"$P\" render fro.lua -o fro.png && cmp to.png fro.png",
+        0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +190,7 @@ int main(void)
         cmocka_unit_test(what_is_of_no_use_is_told),
         cmocka_unit_test(the_flow_is_drawn),
         cmocka_unit_test(all_rows_are_counted),
+        cmocka_unit_test(all_soft_bodies_are_in_the_picture),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }
